@@ -1,0 +1,1 @@
+//! Measures of a scene: energies, section forces, failed zones, histories.

@@ -1,0 +1,1 @@
+//! Background grids of sparse tiles and the shape functions that live on them.

@@ -1,0 +1,1 @@
+//! Files a simulation leaves: ParaView series, tables, plots, checkpoints, progress.

@@ -1,0 +1,1 @@
+//! Constitutive laws, the material-point driver and the public battery of contract checks.

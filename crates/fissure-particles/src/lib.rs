@@ -1,0 +1,1 @@
+//! Particle columns, regions and the seeding of bodies.

@@ -1,0 +1,1 @@
+//! Bodies, what holds and loads them, and time: the scene every solver moves.

@@ -1,0 +1,1 @@
+//! The experiments of the source documents, one sub-command each.

@@ -1,0 +1,1 @@
+//! Symmetric tensors in Mandel form, fourth-order tangents, rotations and spectral decompositions.

@@ -1,0 +1,1 @@
+//! Material failure with particle methods: the facade crate.
