@@ -1,1 +1,3 @@
 //! The experiments of the source documents, one sub-command each.
+
+pub mod framework;
