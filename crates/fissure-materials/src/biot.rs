@@ -1,0 +1,69 @@
+//! Biot kinematics: a small-strain law on the right stretch, objective and energy-consistent.
+//!
+//! With `F = R·U` the strain is `E = U − 1`, linear in the opening of a crack, and a law gives the
+//! conjugate stress `T(E)`. The second Piola-Kirchhoff stress solves `U·S + S·U = 2T`, which holds
+//! whether or not `T` and `U` share their axes, and the Cauchy stress is `F·S·Fᵀ / det F`. The
+//! work of the Cauchy stress is then exactly `T : dE` per reference volume.
+
+use fissure_tensor::{Matrix3, Sym, Tangent, polar, solve_lyapunov};
+
+use crate::MaterialError;
+
+/// Kinematics of one deformation gradient for laws written on the Biot strain.
+#[derive(Clone, Copy, Debug)]
+pub struct Biot {
+    /// The deformation gradient.
+    pub deformation_gradient: Matrix3<f64>,
+    /// Rotation `R`.
+    pub rotation: Matrix3<f64>,
+    /// Right stretch `U`.
+    pub stretch: Sym,
+    /// `det F`.
+    pub jacobian: f64,
+}
+
+impl Biot {
+    /// Polar decomposition of a deformation gradient.
+    ///
+    /// # Errors
+    /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
+    pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
+        let jacobian = f.determinant();
+        let polar = polar(f).ok_or(MaterialError::Deformation {
+            determinant: jacobian,
+        })?;
+        Ok(Self {
+            deformation_gradient: *f,
+            rotation: polar.rotation,
+            stretch: polar.stretch,
+            jacobian,
+        })
+    }
+
+    /// Strain `U − 1`.
+    pub fn strain(&self) -> Sym {
+        self.stretch - Sym::IDENTITY
+    }
+
+    /// Cauchy stress from the stress `T` conjugate to the strain.
+    pub fn cauchy(&self, biot_stress: &Sym) -> Sym {
+        let second_piola = solve_lyapunov(&self.stretch, &(*biot_stress * 2.0));
+        second_piola.congruence(&self.deformation_gradient) / self.jacobian
+    }
+
+    /// Spatial tangent (see [`Material::tangent`](crate::Material::tangent)) from `∂T/∂E`.
+    ///
+    /// Each column follows a perturbation `d`: `δC = 2FᵀdF`, `δU` from `U·δU + δU·U = δC`,
+    /// `δS` from `U·δS + δS·U = 2δT − δU·S − S·δU`, and `c:d = F·δS·Fᵀ/J`.
+    pub fn spatial_tangent(&self, biot_stress: &Sym, modulus: &Tangent) -> Tangent {
+        let f = &self.deformation_gradient;
+        let second_piola = solve_lyapunov(&self.stretch, &(*biot_stress * 2.0)).to_matrix();
+        Tangent::from_columns(|d| {
+            let strain_rate = d.congruence(&f.transpose()) * 2.0;
+            let stretch_rate = solve_lyapunov(&self.stretch, &strain_rate);
+            let coupling = Sym::from_matrix(&(stretch_rate.to_matrix() * second_piola)) * 2.0;
+            let right_side = modulus.apply(&stretch_rate) * 2.0 - coupling;
+            solve_lyapunov(&self.stretch, &right_side).congruence(f) / self.jacobian
+        })
+    }
+}

@@ -1,0 +1,55 @@
+//! What a law that cracks also says, so that measures and contract checks can look inside.
+
+use fissure_tensor::{Sym, Vector3};
+
+use crate::{Material, Scale};
+
+/// Where and how strongly a stress state asks for a crack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Initiation {
+    /// Failure function, dimensionless: > 0 asks for a crack, 0 is the surface.
+    pub value: f64,
+    /// Unit normal of that crack.
+    pub normal: Vector3<f64>,
+}
+
+/// One crack of a material point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crack {
+    /// Unit normal in the reference configuration.
+    pub normal: Vector3<f64>,
+    /// Normal opening now, m.
+    pub opening: f64,
+    /// Band that turns openings into strains, m.
+    pub width: f64,
+    /// Strength it still has, over the virgin one.
+    pub strength_ratio: f64,
+    /// Energy dissipated, over the toughness; 1 when failed.
+    pub dissipated_fraction: f64,
+    /// Whether it carries no more tension.
+    pub failed: bool,
+}
+
+/// A law that cracks.
+pub trait Cracking: Material {
+    /// Energy per crack area to failure in opening, J/m².
+    fn toughness(&self, scale: &Scale) -> f64;
+
+    /// Tensile strength, Pa.
+    fn strength(&self, scale: &Scale) -> f64;
+
+    /// Opening at which nothing is carried any more, m; may be infinite.
+    fn critical_opening(&self, scale: &Scale) -> f64;
+
+    /// Largest band with a unique response, m [Sanchez 2010, eq. 4.5.17].
+    fn band_limit(&self, scale: &Scale) -> f64;
+
+    /// The failure function maximised over the directions the law considers.
+    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation;
+
+    /// The cracks of a state, in storage order.
+    fn cracks(&self, state: &Self::State) -> Vec<Crack>;
+
+    /// Quantities that never fall, in a fixed order.
+    fn irreversible(&self, state: &Self::State) -> Vec<f64>;
+}

@@ -1,0 +1,376 @@
+//! The elastic-decohesive law in mode I [Sanchez 2010, sec. 3.5.3 and 4.5].
+//!
+//! The strain splits into an elastic part and the opening `u` of one crack of normal `n` smeared
+//! over the band `L`: `ε = εᵉ + (u/L) n⊗n`, `T = C:εᵉ`. The crack starts when the normal traction
+//! reaches the strength `τ`; then the traction follows the softening law,
+//! `T_nn = τ·ratio(u τ/G)` (linear: `τ(1 − u/u₀)`, `u₀ = 2G/τ`, eq. 3.5.63).
+//! A step is a closed-form return for linear softening: with the trial normal traction `t₀` of the
+//! uncracked strain, `t₀ − (C_nnnn/L) u = τ·ratio(u τ/G)` has one root while
+//! `L < C_nnnn G/(τ² steepest)` (eq. 4.5.17).
+//!
+//! Choices where the source is silent: the opening is permanent on unloading (as printed), so a
+//! partly open crack under compression answers elastically; a failed crack opens and closes freely
+//! and carries compression when shut; shear along the crack stays elastic. The strain is Biot's,
+//! `U − 1`: objective, and linear in the opening. The band is that of the normal where and when
+//! the crack starts.
+
+use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
+    Scale, Softening, check_parameter,
+    softening::{Linear, opening},
+};
+
+const NAME: &str = "elastic-decohesive law";
+
+/// Where the normal of a crack comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Normal {
+    /// Direction of the largest principal stress when it reaches the strength (Rankine).
+    #[default]
+    Rankine,
+    /// This direction in the reference configuration; need not be of unit length.
+    Prescribed(Vector3<f64>),
+}
+
+/// Parameters of the elastic-decohesive law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decohesive<S = Linear> {
+    /// Elastic constants and density.
+    pub elastic: Isotropic,
+    /// Tensile strength τ_nf, Pa; > 0.
+    pub strength: f64,
+    /// Fracture energy G_f, J/m²; > 0.
+    pub toughness: f64,
+    /// Softening curve.
+    pub softening: S,
+    /// Where the crack's normal comes from.
+    pub normal: Normal,
+}
+
+/// History of the elastic-decohesive law. All zero until a crack starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DecohesiveState {
+    /// Unit normal of the crack in the reference configuration; zero if there is none.
+    pub normal: [f64; 3],
+    /// Band of the crack, m.
+    pub width: f64,
+    /// Dimensionless opening `u τ/G` up to which the crack has softened; never falls.
+    pub softened: f64,
+    /// Opening now, m.
+    pub opening: f64,
+    /// Whether the crack carries no more tension.
+    pub failed: bool,
+}
+
+/// The constants of one particle: parameters times its scale.
+struct Point<'a, S> {
+    elastic: Isotropic,
+    strength: f64,
+    toughness: f64,
+    softening: &'a S,
+}
+
+/// What a step of the crack came to.
+struct Step {
+    biot_stress: Sym,
+    state: DecohesiveState,
+    /// Slope of the traction over the opening if the crack moved, Pa/m.
+    moving: Option<f64>,
+    started: bool,
+}
+
+impl<S: Softening> Decohesive<S> {
+    fn point(&self, scale: &Scale) -> Point<'_, S> {
+        Point {
+            elastic: self.elastic.scaled(scale),
+            strength: self.strength * scale.strength,
+            toughness: self.toughness * scale.toughness,
+            softening: &self.softening,
+        }
+    }
+
+    /// Normal of the crack that this stress starts, if it does.
+    fn onset(&self, point: &Point<'_, S>, stress: &Sym) -> Option<Vector3<f64>> {
+        match self.normal {
+            Normal::Prescribed(normal) => {
+                let normal = normal.normalize();
+                (stress.normal_component(&normal) > point.strength).then_some(normal)
+            }
+            Normal::Rankine => {
+                // σ₁ ≤ mean + 2√(J₂/3): rejects most states before any spectrum.
+                if stress.mean() + 2.0 * (stress.j2() / 3.0).sqrt() <= point.strength {
+                    return None;
+                }
+                let spectrum = stress.spectrum();
+                (spectrum.values[0] > point.strength).then_some(spectrum.vectors[0])
+            }
+        }
+    }
+
+    fn step(
+        &self,
+        point: &Point<'_, S>,
+        kinematics: &Biot,
+        band: &Band,
+        old: &DecohesiveState,
+    ) -> Step {
+        let uncracked = point.elastic.stress(&kinematics.strain());
+        let mut state = *old;
+        let mut started = false;
+        if state.width == 0.0 {
+            match self.onset(point, &uncracked) {
+                None => {
+                    return Step {
+                        biot_stress: uncracked,
+                        state,
+                        moving: None,
+                        started,
+                    };
+                }
+                Some(normal) => {
+                    state.normal = normal.into();
+                    state.width = band.width(&(kinematics.rotation * normal));
+                    started = true;
+                }
+            }
+        }
+        let normal = Vector3::from(state.normal);
+        let moving = point.open(&mut state, uncracked.normal_component(&normal));
+        let crack_strain = Sym::dyad(&normal) * (state.opening / state.width);
+        Step {
+            biot_stress: uncracked - point.elastic.stress(&crack_strain),
+            state,
+            moving,
+            started,
+        }
+    }
+}
+
+impl<S: Softening> Point<'_, S> {
+    /// Moves the opening for the normal traction `uncracked` that the strain would give without
+    /// the crack. Returns the slope of the traction over the opening if it moved.
+    fn open(&self, state: &mut DecohesiveState, uncracked: f64) -> Option<f64> {
+        let stiffness = self.elastic.p_wave_modulus() / state.width;
+        if state.failed {
+            state.opening = (uncracked / stiffness).max(0.0);
+            return (state.opening > 0.0).then_some(0.0);
+        }
+        let per_opening = self.strength / self.toughness;
+        let limit = self.strength * self.softening.ratio(state.softened);
+        // The slack keeps a zero increment on the softening branch from moving the state by
+        // round-off.
+        let slack = 8.0 * f64::EPSILON * (uncracked.abs() + self.strength);
+        if uncracked - stiffness * state.opening <= limit + slack {
+            return None;
+        }
+        state.softened = opening(
+            self.softening,
+            uncracked / self.strength,
+            stiffness / (self.strength * per_opening),
+            state.softened,
+        );
+        state.opening = state.softened / per_opening;
+        state.failed = state.softened >= self.softening.critical();
+        if state.failed {
+            state.softened = self.softening.critical();
+            return Some(0.0);
+        }
+        Some(self.strength * per_opening * self.softening.slope(state.softened))
+    }
+}
+
+impl<S: Softening> Material for Decohesive<S> {
+    type State = DecohesiveState;
+    const NAMES: &'static [&'static str] = &["opening", "softened", "failed"];
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.elastic.check_for(NAME)?;
+        let (strength, toughness) = (self.strength, self.toughness);
+        check_parameter(NAME, "strength", strength, strength > 0.0, "finite and > 0")?;
+        check_parameter(
+            NAME,
+            "toughness",
+            toughness,
+            toughness > 0.0,
+            "finite and > 0",
+        )?;
+        if let Normal::Prescribed(normal) = self.normal {
+            let length = normal.norm();
+            check_parameter(NAME, "normal", length, length > 0.0, "finite, not zero")?;
+        }
+        Ok(())
+    }
+
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        let width = match self.normal {
+            Normal::Prescribed(normal) => band.width(&normal.normalize()),
+            Normal::Rankine => band.max_width(),
+        };
+        let limit = self.band_limit(scale);
+        if width > 0.0 && width < limit {
+            Ok(())
+        } else {
+            Err(MaterialError::Band {
+                law: NAME,
+                width,
+                limit,
+            })
+        }
+    }
+
+    fn density(&self) -> f64 {
+        self.elastic.density
+    }
+
+    fn wave_speed(&self, _f: &Matrix3<f64>, _state: &DecohesiveState, scale: &Scale) -> f64 {
+        self.elastic.scaled(scale).p_wave_speed()
+    }
+
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+    ) -> Result<Response<DecohesiveState>, MaterialError> {
+        let point = self.point(&increment.external.scale);
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step(&point, &kinematics, &increment.band, old);
+        Ok(point.response(&kinematics, &step, old))
+    }
+
+    fn tangent(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+    ) -> Result<Tangent, MaterialError> {
+        Ok(self.update_with_tangent(increment, old)?.1)
+    }
+
+    fn update_with_tangent(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+    ) -> Result<(Response<DecohesiveState>, Tangent), MaterialError> {
+        let point = self.point(&increment.external.scale);
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step(&point, &kinematics, &increment.band, old);
+        let mut modulus = point.elastic.stiffness();
+        if let Some(slope) = step.moving {
+            let normal = Vector3::from(step.state.normal);
+            let direction = point.elastic.stress(&Sym::dyad(&normal));
+            let factor = point.elastic.p_wave_modulus() + slope * step.state.width;
+            modulus = modulus - Tangent::dyad(&direction, &direction) * (1.0 / factor);
+            if step.started && self.normal == Normal::Rankine {
+                let turning = turning_normal(&point.elastic, &kinematics.strain(), &normal);
+                modulus = modulus - turning * (step.state.opening / step.state.width);
+            }
+        }
+        let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus);
+        Ok((point.response(&kinematics, &step, old), tangent))
+    }
+
+    fn values(&self, state: &DecohesiveState, out: &mut [f64]) {
+        out[0] = state.opening;
+        out[1] = state.softened;
+        out[2] = f64::from(u8::from(state.failed));
+    }
+}
+
+impl<S: Softening> Point<'_, S> {
+    fn response(
+        &self,
+        kinematics: &Biot,
+        step: &Step,
+        old: &DecohesiveState,
+    ) -> Response<DecohesiveState> {
+        let state = step.state;
+        let (mut elastic_strain, mut dissipated) = (kinematics.strain(), 0.0);
+        if state.width > 0.0 {
+            let normal = Vector3::from(state.normal);
+            elastic_strain -= Sym::dyad(&normal) * (state.opening / state.width);
+            dissipated = self.toughness / state.width
+                * (self.softening.area(state.softened) - self.softening.area(old.softened));
+        }
+        Response {
+            stress: kinematics.cauchy(&step.biot_stress),
+            state,
+            stored: 0.5 * step.biot_stress.dot(&elastic_strain),
+            dissipated,
+        }
+    }
+}
+
+/// Derivative of `C:(n⊗n)` with the strain while `n` is the first principal direction: in the step
+/// in which a crack starts its normal still follows the strain,
+/// `d(n⊗n) = Σ_j (n·dε·m_j)/(ε_n − ε_j) (n⊗m_j + m_j⊗n)`. Coinciding strains are left out: there
+/// the direction is not differentiable.
+fn turning_normal(elastic: &Isotropic, strain: &Sym, normal: &Vector3<f64>) -> Tangent {
+    let spectrum = strain.spectrum();
+    let mut turning = Tangent::zero();
+    for j in 1..3 {
+        let gap = spectrum.values[0] - spectrum.values[j];
+        if gap > 1e-8 * strain.max_abs() {
+            let mixed = Sym::dyad_of(normal, &spectrum.vectors[j]);
+            let stress = mixed * (2.0 * elastic.shear_modulus());
+            turning = turning + Tangent::dyad(&stress, &mixed) * (2.0 / gap);
+        }
+    }
+    turning
+}
+
+impl<S: Softening> Cracking for Decohesive<S> {
+    fn toughness(&self, scale: &Scale) -> f64 {
+        self.toughness * scale.toughness
+    }
+
+    fn strength(&self, scale: &Scale) -> f64 {
+        self.strength * scale.strength
+    }
+
+    fn critical_opening(&self, scale: &Scale) -> f64 {
+        self.softening.critical() * self.toughness(scale) / self.strength(scale)
+    }
+
+    fn band_limit(&self, scale: &Scale) -> f64 {
+        let strength = self.strength(scale);
+        self.elastic.scaled(scale).p_wave_modulus() * self.toughness(scale)
+            / (strength * strength * self.softening.steepest())
+    }
+
+    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        let (traction, normal) = match self.normal {
+            Normal::Prescribed(normal) => {
+                let normal = normal.normalize();
+                (stress.normal_component(&normal), normal)
+            }
+            Normal::Rankine => {
+                let spectrum = stress.spectrum();
+                (spectrum.values[0], spectrum.vectors[0])
+            }
+        };
+        Initiation {
+            value: traction / self.strength(scale) - 1.0,
+            normal,
+        }
+    }
+
+    fn cracks(&self, state: &DecohesiveState) -> Vec<Crack> {
+        if state.width == 0.0 {
+            return Vec::new();
+        }
+        vec![Crack {
+            normal: Vector3::from(state.normal),
+            opening: state.opening,
+            width: state.width,
+            strength_ratio: self.softening.ratio(state.softened),
+            dissipated_fraction: self.softening.area(state.softened),
+            failed: state.failed,
+        }]
+    }
+
+    fn irreversible(&self, state: &DecohesiveState) -> Vec<f64> {
+        vec![state.softened, f64::from(u8::from(state.failed))]
+    }
+}

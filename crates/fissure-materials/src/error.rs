@@ -1,0 +1,75 @@
+//! What can be wrong with a law or a deformation handed to it.
+
+use thiserror::Error;
+
+/// Why a law refused its parameters, its band or a deformation.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MaterialError {
+    /// A parameter is outside its permitted range.
+    #[error("{law}: parameter '{parameter}' is {value}; permitted: {permitted}")]
+    Parameter {
+        /// The law.
+        law: &'static str,
+        /// The parameter's field name.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// The permitted range.
+        permitted: &'static str,
+    },
+    /// The band is so wide that the material point would snap back [Sanchez 2010, eq. 4.5.17].
+    #[error(
+        "{law}: the band of {width} m is over the limit of {limit} m \
+         (stiffness × toughness / (strength² × steepest slope)); refine the grid"
+    )]
+    Band {
+        /// The law.
+        law: &'static str,
+        /// Width handed over, m.
+        width: f64,
+        /// Largest width with a unique response, m.
+        limit: f64,
+    },
+    /// The deformation gradient is not finite or does not preserve orientation.
+    #[error("deformation gradient has determinant {determinant}; permitted: finite and > 0")]
+    Deformation {
+        /// Its determinant.
+        determinant: f64,
+    },
+    /// The response is not finite.
+    #[error("{law}: stress is not finite")]
+    NotFinite {
+        /// The law.
+        law: &'static str,
+    },
+    /// A local iteration did not converge.
+    #[error("{law}: no convergence in {iterations} iterations, residual {residual}")]
+    NoConvergence {
+        /// The law.
+        law: &'static str,
+        /// Iterations done.
+        iterations: usize,
+        /// Last residual, relative.
+        residual: f64,
+    },
+}
+
+/// Refuses a parameter for which `valid` is false; NaN never is valid.
+pub fn check_parameter(
+    law: &'static str,
+    parameter: &'static str,
+    value: f64,
+    valid: bool,
+    permitted: &'static str,
+) -> Result<(), MaterialError> {
+    if valid && value.is_finite() {
+        Ok(())
+    } else {
+        Err(MaterialError::Parameter {
+            law,
+            parameter,
+            value,
+            permitted,
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! Isotropic linear elasticity at small strain: `σ = λ tr(ε) 1 + 2μ ε`, `ε = sym(F) − 1`.
+
+use fissure_tensor::{Matrix3, Sym, Tangent};
+
+use crate::{Increment, Material, MaterialError, Response, Scale, check_parameter};
+
+/// Isotropic elastic constants, and the small-strain law of that name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Isotropic {
+    /// Reference mass density ρ, kg/m³; > 0.
+    pub density: f64,
+    /// Young's modulus E, Pa; > 0.
+    pub young: f64,
+    /// Poisson's ratio ν; in (−1, 0.5).
+    pub poisson: f64,
+}
+
+impl Isotropic {
+    /// Lamé's first constant λ, Pa.
+    pub fn lambda(&self) -> f64 {
+        self.young * self.poisson / ((1.0 + self.poisson) * (1.0 - 2.0 * self.poisson))
+    }
+
+    /// Shear modulus μ, Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        0.5 * self.young / (1.0 + self.poisson)
+    }
+
+    /// `λ + 2μ`, Pa.
+    pub fn p_wave_modulus(&self) -> f64 {
+        self.lambda() + 2.0 * self.shear_modulus()
+    }
+
+    /// Speed of dilatational waves, m/s.
+    pub fn p_wave_speed(&self) -> f64 {
+        (self.p_wave_modulus() / self.density).sqrt()
+    }
+
+    /// `λ tr(ε) 1 + 2μ ε`, Pa.
+    #[inline]
+    pub fn stress(&self, strain: &Sym) -> Sym {
+        Sym::IDENTITY * (self.lambda() * strain.trace()) + *strain * (2.0 * self.shear_modulus())
+    }
+
+    /// The elasticity tensor, Pa.
+    pub fn stiffness(&self) -> Tangent {
+        Tangent::isotropic(self.lambda(), self.shear_modulus())
+    }
+
+    /// The same constants with the stiffness scaled.
+    #[inline]
+    pub fn scaled(&self, scale: &Scale) -> Self {
+        Self {
+            young: self.young * scale.stiffness,
+            ..*self
+        }
+    }
+
+    /// Refuses constants outside their range, in the name of `law`.
+    ///
+    /// # Errors
+    /// [`MaterialError::Parameter`].
+    pub fn check_for(&self, law: &'static str) -> Result<(), MaterialError> {
+        let (density, young, poisson) = (self.density, self.young, self.poisson);
+        check_parameter(law, "density", density, density > 0.0, "finite and > 0")?;
+        check_parameter(law, "young", young, young > 0.0, "finite and > 0")?;
+        check_parameter(
+            law,
+            "poisson",
+            poisson,
+            poisson > -1.0 && poisson < 0.5,
+            "in (-1, 0.5)",
+        )
+    }
+}
+
+impl Material for Isotropic {
+    type State = ();
+    const OBJECTIVE: bool = false;
+    const HYPERELASTIC: bool = false;
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.check_for("isotropic elasticity")
+    }
+
+    fn density(&self) -> f64 {
+        self.density
+    }
+
+    fn wave_speed(&self, _f: &Matrix3<f64>, _state: &(), scale: &Scale) -> f64 {
+        self.scaled(scale).p_wave_speed()
+    }
+
+    #[inline]
+    fn update(&self, increment: &Increment, _old: &()) -> Result<Response<()>, MaterialError> {
+        let strain = increment.small_strain();
+        let stress = self.scaled(&increment.external.scale).stress(&strain);
+        Ok(Response {
+            stress,
+            state: (),
+            stored: 0.5 * stress.dot(&strain),
+            dissipated: 0.0,
+        })
+    }
+
+    fn tangent(&self, increment: &Increment, _old: &()) -> Result<Tangent, MaterialError> {
+        let elastic = self.scaled(&increment.external.scale);
+        let stress = elastic.stress(&increment.small_strain());
+        let stress_matrix = stress.to_matrix();
+        Ok(Tangent::from_columns(|d| {
+            let d_matrix = d.to_matrix();
+            let strain_rate = Sym::from_matrix(&(d_matrix * increment.f_new));
+            // δτ/J = δσ + tr(d) σ; the Truesdell rate takes dσ + σd off.
+            elastic.stress(&strain_rate) + stress * d.trace()
+                - Sym::from_matrix(&(d_matrix * stress_matrix)) * 2.0
+        }))
+    }
+}

@@ -1,0 +1,135 @@
+//! The trait every constitutive law implements.
+
+use std::fmt::Debug;
+
+use fissure_tensor::{Band, Matrix3, Sym, Tangent};
+use serde::{Serialize, de::DeserializeOwned};
+
+use crate::{Increment, MaterialError, Response, Scale};
+
+/// A constitutive law: a pure function from an increment and an old state to a new state.
+///
+/// The stress is total: it follows from `f_new` and the state, so a zero increment changes
+/// nothing and no old stress is handed over. Only [`density`](Self::density),
+/// [`wave_speed`](Self::wave_speed) and [`update`](Self::update) have to be written.
+pub trait Material: Send + Sync + 'static {
+    /// History of one particle; `()` costs nothing. Serde keeps it in checkpoints bit for bit.
+    type State: Copy
+        + Default
+        + PartialEq
+        + Debug
+        + Send
+        + Sync
+        + Serialize
+        + DeserializeOwned
+        + 'static;
+
+    /// Whether a rotation on top of a deformation only rotates the stress. A law that uses the
+    /// small strain of `F` says `false`, and the contract checks leave finite rotations out.
+    const OBJECTIVE: bool = true;
+
+    /// Whether `stored` is the energy whose derivative is the stress at *finite* strain, so that
+    /// stored plus dissipated energy equals the work done. Small-strain laws say `false`: for them
+    /// it holds to first order in the strain.
+    const HYPERELASTIC: bool = true;
+
+    /// Names of what [`values`](Self::values) writes, for output and probes.
+    const NAMES: &'static [&'static str] = &[];
+
+    /// Refuses parameters outside their range.
+    ///
+    /// # Errors
+    /// [`MaterialError::Parameter`] with the field, the value and the rule.
+    fn check(&self) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    /// Refuses a band for which the response would not be unique [Sanchez 2010, eq. 4.5.17].
+    ///
+    /// # Errors
+    /// [`MaterialError::Band`] with the width and the limit.
+    fn check_band(&self, _band: &Band, _scale: &Scale) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    /// Reference mass density, kg/m³.
+    fn density(&self) -> f64;
+
+    /// Speed of the fastest wave, m/s; bounds the explicit step.
+    fn wave_speed(&self, f: &Matrix3<f64>, state: &Self::State, scale: &Scale) -> f64;
+
+    /// State of an undeformed particle.
+    fn initial(&self) -> Self::State {
+        Self::State::default()
+    }
+
+    /// Stress, state and energies at the end of an increment.
+    ///
+    /// # Errors
+    /// A deformation that the law cannot take, or a local iteration that fails.
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<Response<Self::State>, MaterialError>;
+
+    /// Spatial tangent for the Truesdell rate: `c : d = (δτ − dτ − τd)/J` for the change `δτ` of
+    /// the Kirchhoff stress under `F → (1 + d) F`, Pa. The solver adds the geometric term.
+    ///
+    /// The default takes central differences of [`update`](Self::update).
+    ///
+    /// # Errors
+    /// As `update`.
+    fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
+        difference_tangent(self, increment, old, 1e-6)
+    }
+
+    /// Both at once, for laws that share work between them.
+    ///
+    /// # Errors
+    /// As `update`.
+    fn update_with_tangent(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
+        Ok((self.update(increment, old)?, self.tangent(increment, old)?))
+    }
+
+    /// Writes one number per entry of [`NAMES`](Self::NAMES).
+    fn values(&self, _state: &Self::State, _out: &mut [f64]) {}
+
+    /// `F₃₃` that the state holds, for laws that determine it (plane stress).
+    fn out_of_plane_stretch(&self, _state: &Self::State) -> Option<f64> {
+        None
+    }
+}
+
+/// The tangent of [`Material::tangent`] by central differences with relative step `step`.
+///
+/// # Errors
+/// As [`Material::update`].
+pub fn difference_tangent<M: Material + ?Sized>(
+    law: &M,
+    increment: &Increment,
+    old: &M::State,
+    step: f64,
+) -> Result<Tangent, MaterialError> {
+    let kirchhoff = |d: &Sym, sign: f64| -> Result<Sym, MaterialError> {
+        let f = (Matrix3::identity() + d.to_matrix() * (sign * step)) * increment.f_new;
+        let response = law.update(&increment.with_end(f), old)?;
+        Ok(response.stress * f.determinant())
+    };
+    let jacobian = increment.jacobian();
+    let stress = law.update(increment, old)?.stress.to_matrix();
+    let mut matrix = fissure_tensor::Matrix6::zeros();
+    for column in 0..6 {
+        let mut d = Sym::ZERO;
+        d.mandel[column] = 1.0;
+        let difference = (kirchhoff(&d, 1.0)? - kirchhoff(&d, -1.0)?) / (2.0 * step * jacobian);
+        // `dτ + τd` over J: twice the symmetric part of `d·σ`.
+        let convected = Sym::from_matrix(&(d.to_matrix() * stress)) * 2.0;
+        matrix.set_column(column, &(difference - convected).mandel.into());
+    }
+    Ok(Tangent(matrix))
+}
