@@ -1,0 +1,176 @@
+//! Prescribed velocities, from particles to the nodes they reach.
+
+use fissure_grid::{Grid, Shape, Stencil, TILE, WINDOW_START, tile_of};
+use fissure_particles::ParticleId;
+use fissure_scene::{Body, Condition, ConditionKind, Hold, Scene, Selection, SolveError};
+use nalgebra::{SMatrix, SVector};
+
+use crate::placement::Placement;
+
+/// A weight below this is round-off: the node is not reached.
+const REACHED: f64 = 1e-10;
+/// A direction within this (sine) of the held ones adds nothing.
+const INDEPENDENT: f64 = 1e-6;
+
+/// A node some of whose velocity components are prescribed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeldNode<const D: usize> {
+    pub node: usize,
+    pub count: usize,
+    /// Orthonormal directions, the first `count` of them held.
+    pub directions: [SVector<f64, D>; D],
+    /// Prescribed velocity along each, m/s.
+    pub speeds: [f64; D],
+    /// Condition that prescribes each.
+    pub conditions: [usize; D],
+}
+
+impl<const D: usize> HeldNode<D> {
+    fn new(node: usize) -> Self {
+        Self {
+            node,
+            count: 0,
+            directions: [SVector::zeros(); D],
+            speeds: [0.0; D],
+            conditions: [0; D],
+        }
+    }
+
+    /// Adds `v·direction = speed` unless the held directions already decide it.
+    fn prescribe(&mut self, direction: SVector<f64, D>, speed: f64, condition: usize) {
+        let (mut rest, mut known) = (direction, 0.0);
+        for k in 0..self.count {
+            let part = self.directions[k].dot(&direction);
+            rest -= self.directions[k] * part;
+            known += self.speeds[k] * part;
+        }
+        let length = rest.norm();
+        if self.count == D || length <= INDEPENDENT {
+            return;
+        }
+        self.directions[self.count] = rest / length;
+        self.speeds[self.count] = (speed - known) / length;
+        self.conditions[self.count] = condition;
+        self.count += 1;
+    }
+
+    /// The velocity with the held components replaced.
+    pub(crate) fn apply(&self, velocity: &SVector<f64, D>) -> SVector<f64, D> {
+        let mut v = *velocity;
+        for k in 0..self.count {
+            v += self.directions[k] * (self.speeds[k] - self.directions[k].dot(velocity));
+        }
+        v
+    }
+}
+
+/// The held nodes of a step, in ascending order of nodes.
+#[derive(Debug, Default)]
+pub(crate) struct Constraints<const D: usize> {
+    pub held: Vec<HeldNode<D>>,
+    /// `(node, condition)` pairs before they are merged; kept for its allocation.
+    reached: Vec<(usize, usize)>,
+}
+
+impl<const D: usize> Constraints<D> {
+    /// Collects the nodes that the conditions of the scene reach now; speeds are those at `time`.
+    ///
+    /// # Errors
+    /// A rigid particle outside the grid.
+    pub(crate) fn collect<S: Shape<D>>(
+        &mut self,
+        scene: &Scene<D>,
+        grid: &Grid<D>,
+        shape: &S,
+        placement: &Placement<D>,
+        time: f64,
+    ) -> Result<(), SolveError> {
+        self.reached.clear();
+        for (index, condition) in scene.conditions().iter().enumerate() {
+            if let ConditionKind::Velocity { .. } = condition.kind() {
+                self.reach(scene, grid, shape, placement, index, condition)?;
+            }
+        }
+        self.reached.sort_unstable();
+        self.reached.dedup();
+        self.held.clear();
+        for group in self.reached.chunk_by(|a, b| a.0 == b.0) {
+            let mut node = HeldNode::new(group[0].0);
+            for &(_, index) in group {
+                let condition = &scene.conditions()[index];
+                let ConditionKind::Velocity { hold, speed } = condition.kind() else {
+                    continue;
+                };
+                let direction = hold.direction();
+                node.prescribe(direction, speed.at(time), index);
+                if let Hold::All(_) = hold {
+                    for axis in 0..D {
+                        let mut across = SVector::zeros();
+                        across[axis] = 1.0;
+                        // The part along the direction moves with it, the rest stands still.
+                        node.prescribe(across, speed.at(time) * direction[axis], index);
+                    }
+                }
+            }
+            self.held.push(node);
+        }
+        Ok(())
+    }
+
+    fn reach<S: Shape<D>>(
+        &mut self,
+        scene: &Scene<D>,
+        grid: &Grid<D>,
+        shape: &S,
+        placement: &Placement<D>,
+        index: usize,
+        condition: &Condition<D>,
+    ) -> Result<(), SolveError> {
+        let mut mark = |x: &SVector<f64, D>, domain: &SMatrix<f64, D, D>| -> Option<()> {
+            let tile = tile_of(grid.cell(x)?);
+            let stencil = shape.stencil(grid, tile, x, domain)?;
+            stencil.visit_values(|entry, weight| {
+                if weight > REACHED {
+                    let node: [i32; D] = std::array::from_fn(|axis| {
+                        tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
+                    });
+                    // A node whose tile is not held has no mass either.
+                    if let Some(node) = placement.node(node) {
+                        self.reached.push((node, index));
+                    }
+                }
+            });
+            Some(())
+        };
+        let outside = |id: u32, x: &SVector<f64, D>| SolveError::Outside {
+            body: condition.name().to_owned(),
+            id: ParticleId(id),
+            position: x.iter().copied().collect(),
+            step: scene.step() + 1,
+            time: scene.time(),
+        };
+        match condition.selection() {
+            Selection::Rigid {
+                position,
+                half_edges,
+            } => {
+                for (row, x) in position.iter().enumerate() {
+                    mark(x, half_edges).ok_or_else(|| outside(row as u32, x))?;
+                }
+            }
+            Selection::Body { body, .. } => {
+                let body = &scene.bodies()[*body];
+                let motion = &body.particles().motion;
+                for &row in placement.selected(index) {
+                    let row = row as usize;
+                    let f = Body::<D>::in_space(&motion.deformation_gradient[row]);
+                    let domain = shape.domain(body.half_edges(), &f);
+                    let x = &motion.position[row];
+                    let id = body.particles().id[row].0;
+                    mark(x, &domain).ok_or_else(|| outside(id, x))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
