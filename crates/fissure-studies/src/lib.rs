@@ -1,1 +1,14 @@
 //! The experiments of the source documents, one sub-command each.
+//!
+//! A study implements [`framework::Study`] and is listed in [`studies`]; the framework
+//! reads the command line, expands the parameters into the combinations to run and
+//! prints the rows.
+
+pub mod framework;
+
+use framework::Study;
+
+/// Every study of the binary, in the order of `--list`.
+pub fn studies() -> Vec<Box<dyn Study>> {
+    Vec::new()
+}

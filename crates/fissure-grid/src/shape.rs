@@ -1,0 +1,59 @@
+//! Shape functions: how a particle is spread over the nodes.
+//!
+//! | shape | nodes per axis | gradient | band | remark |
+//! |---|---|---|---|---|
+//! | [`Linear`] | 2 | jumps at cell faces | exact for cracks | cheapest; noise when particles cross faces |
+//! | [`Gimp`] | 3 | continuous | energy-fitting | box of fixed size |
+//! | [`Cpdi`] | up to 4 | not the derivative of N | energy-fitting | the domain follows the deformation |
+//! | [`Bspline2`] | 3 | continuous | energy-fitting | needs no domain |
+//! | [`Bspline3`] | 4 | smooth | energy-fitting | needs no domain |
+//!
+//! All have ΣN = 1, ΣN x_i = x and Σ∇N ⊗ x_i = 1. None is modified at the grid's faces.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{Grid, Stencil};
+
+mod bspline;
+mod cpdi;
+mod gimp;
+mod linear;
+
+pub use bspline::{Bspline2, Bspline3};
+pub use cpdi::{Corners, Cpdi};
+pub use gimp::Gimp;
+pub use linear::Linear;
+
+/// A shape function.
+pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static {
+    /// The weights of one particle.
+    type Stencil: Stencil<D>;
+
+    /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3".
+    fn name(&self) -> &'static str;
+
+    /// The domain (half-edge vectors as columns, m) the particle has now, from the one it was seeded with and the upper
+    /// left D×D block of its deformation gradient. Kept as it was unless the shape deforms it, as CPDI does.
+    #[inline]
+    fn domain(&self, initial: &SMatrix<f64, D, D>, _f: &SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
+        *initial
+    }
+
+    /// Weights of a particle at `x` (m) with the half-edges `domain` (columns, m), in the window of `tile` (cells
+    /// 4t .. 4t + 4).
+    ///
+    /// None if the particle is outside the grid, if a node is outside the window, or if the shape cannot use the domain.
+    /// A particle that left the tile is served as long as its nodes fit the window, so sorting may lag a step or two.
+    /// Nodes may lie outside the grid's cells.
+    fn stencil(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &SVector<f64, D>,
+        domain: &SMatrix<f64, D, D>,
+    ) -> Option<Self::Stencil>;
+
+    /// How far the nodes lie from the lower node of the particle's cell, along an axis: (nodes below it, nodes above it),
+    /// so (0, 1) for linear functions.
+    fn reach(&self) -> (i32, i32);
+}

@@ -1,0 +1,90 @@
+//! Uniform B-splines of second and third degree (Steffen, Kirby & Berzins 2008), not modified at the grid's faces.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::separable::Line;
+use crate::{Grid, Separable, Shape};
+
+/// Quadratic B-splines, continuous gradient. The domain is not used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bspline2;
+
+/// Cubic B-splines, continuous second derivative. The domain is not used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bspline3;
+
+impl<const D: usize> Shape<D> for Bspline2 {
+    type Stencil = Separable<D, 3>;
+
+    fn name(&self) -> &'static str {
+        "bspline2"
+    }
+
+    #[inline]
+    fn stencil(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &SVector<f64, D>,
+        _domain: &SMatrix<f64, D, D>,
+    ) -> Option<Self::Stencil> {
+        Separable::new(grid, tile, x, quadratic)
+    }
+
+    fn reach(&self) -> (i32, i32) {
+        (1, 2)
+    }
+}
+
+impl<const D: usize> Shape<D> for Bspline3 {
+    type Stencil = Separable<D, 4>;
+
+    fn name(&self) -> &'static str {
+        "bspline3"
+    }
+
+    #[inline]
+    fn stencil(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &SVector<f64, D>,
+        _domain: &SMatrix<f64, D, D>,
+    ) -> Option<Self::Stencil> {
+        Separable::new(grid, tile, x, cubic)
+    }
+
+    fn reach(&self) -> (i32, i32) {
+        (1, 2)
+    }
+}
+
+/// The nearest node and the ones beside it; `d` is the distance to it in cells.
+#[inline]
+fn quadratic(t: f64) -> Line<3> {
+    let nearest = i32::from(t >= 0.5);
+    let d = t - f64::from(nearest);
+    let (below, above) = (0.5 - d, 0.5 + d);
+    (
+        nearest - 1,
+        [0.5 * below * below, 0.75 - d * d, 0.5 * above * above],
+        [-below, -2.0 * d, above],
+    )
+}
+
+#[inline]
+fn cubic(t: f64) -> Line<4> {
+    let s = 1.0 - t;
+    let (t2, s2) = (t * t, s * s);
+    let inner = |square: f64, one: f64| 2.0 / 3.0 - square * (1.0 - 0.5 * one);
+    (
+        -1,
+        [s2 * s / 6.0, inner(t2, t), inner(s2, s), t2 * t / 6.0],
+        [
+            -0.5 * s2,
+            -t * (2.0 - 1.5 * t),
+            s * (2.0 - 1.5 * s),
+            0.5 * t2,
+        ],
+    )
+}

@@ -1,0 +1,369 @@
+//! A body's law, erased once per body: the particle loop inside is static.
+
+use std::fmt::Debug;
+
+use fissure_materials::{
+    Increment, Material, MaterialError, Response, Scale, Tangent,
+};
+use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
+use fissure_tensor::{Band, Sym};
+
+use crate::body::ParticleScale;
+use crate::sweep::{
+    Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
+};
+use crate::PersistError;
+
+/// Columns of a body that a sweep reads besides the motion.
+#[derive(Clone, Copy)]
+pub(crate) struct Constants<'a> {
+    pub id: &'a [ParticleId],
+    pub volume: &'a [f64],
+    pub density: f64,
+    pub scale: Option<&'a [ParticleScale]>,
+}
+
+/// What a body asks of its law, whatever the law's type.
+pub trait BodyLaw: Send + Sync {
+    /// Names of the values that the law's state can show.
+    fn names(&self) -> &'static [&'static str];
+    /// One of those values of each particle, in the order of the columns.
+    fn values(&self, value: usize) -> Vec<f64>;
+    /// Reference mass density, kg/m³.
+    fn density(&self) -> f64;
+    /// Refuses a band for which the response would not be unique.
+    ///
+    /// # Errors
+    /// [`MaterialError::Band`].
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError>;
+    /// The states as bytes.
+    ///
+    /// # Errors
+    /// A state that does not encode.
+    fn save(&self) -> Result<Vec<u8>, postcard::Error>;
+    /// Puts saved states back; `section` names them in errors.
+    ///
+    /// # Errors
+    /// Bytes that do not decode, or another number of states than there are particles.
+    fn restore(&mut self, bytes: &[u8], section: &str) -> Result<(), PersistError>;
+}
+
+/// The part of an erased law that only this crate calls.
+pub(crate) trait SweepLaw<const D: usize>: BodyLaw {
+    fn as_body_law(&self) -> &dyn BodyLaw;
+    fn grow(&mut self, count: usize);
+    fn reorder(&mut self, order: &[u32]);
+    fn commit(&mut self);
+    fn wave_speed(&self, motion: &MotionSlices<'_, D>, constants: &Constants<'_>) -> f64;
+    #[allow(clippy::too_many_arguments)] // The columns are borrowed apart so that they split.
+    fn sweep(
+        &mut self,
+        runs: &[Run],
+        old: MotionSlices<'_, D>,
+        new: MotionSlicesMut<'_, D>,
+        constants: Constants<'_>,
+        kernel: &dyn RunKernel<D>,
+        settings: &SweepSettings,
+        tangents: Tangents<'_>,
+    ) -> Result<SweepTotals, SweepFailure>;
+}
+
+/// A law and the present and trial states of its particles.
+pub(crate) struct TypedLaw<M: Material> {
+    law: M,
+    states: Vec<M::State>,
+    trial: Vec<M::State>,
+}
+
+impl<M: Material> TypedLaw<M> {
+    pub(crate) fn new(law: M) -> Self {
+        Self {
+            law,
+            states: Vec::new(),
+            trial: Vec::new(),
+        }
+    }
+}
+
+impl<M: Material> BodyLaw for TypedLaw<M> {
+    fn names(&self) -> &'static [&'static str] {
+        M::NAMES
+    }
+
+    fn values(&self, value: usize) -> Vec<f64> {
+        let mut row = vec![f64::NAN; M::NAMES.len()];
+        let pick = |state| {
+            self.law.values(state, &mut row);
+            row.get(value).copied().unwrap_or(f64::NAN)
+        };
+        self.states.iter().map(pick).collect()
+    }
+
+    fn density(&self) -> f64 {
+        self.law.density()
+    }
+
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        self.law.check_band(band, scale)
+    }
+
+    fn save(&self) -> Result<Vec<u8>, postcard::Error> {
+        postcard::to_stdvec(&self.states)
+    }
+
+    fn restore(&mut self, bytes: &[u8], section: &str) -> Result<(), PersistError> {
+        let states: Vec<M::State> =
+            postcard::from_bytes(bytes).map_err(|source| PersistError::Decode {
+                section: section.to_owned(),
+                source,
+            })?;
+        if states.len() != self.states.len() {
+            return Err(PersistError::Mismatch {
+                section: section.to_owned(),
+                what: "number of particles",
+                found: states.len(),
+                expected: self.states.len(),
+            });
+        }
+        self.states = states;
+        Ok(())
+    }
+}
+
+impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
+    fn as_body_law(&self) -> &dyn BodyLaw {
+        self
+    }
+
+    fn grow(&mut self, count: usize) {
+        self.states.resize(count, self.law.initial());
+    }
+
+    fn reorder(&mut self, order: &[u32]) {
+        self.trial.clear();
+        self.trial
+            .extend(order.iter().map(|&i| self.states[i as usize]));
+        std::mem::swap(&mut self.states, &mut self.trial);
+    }
+
+    fn commit(&mut self) {
+        std::mem::swap(&mut self.states, &mut self.trial);
+    }
+
+    fn wave_speed(&self, motion: &MotionSlices<'_, D>, constants: &Constants<'_>) -> f64 {
+        let mut fastest: f64 = 0.0;
+        for (i, state) in self.states.iter().enumerate() {
+            let scale = scale_of(constants.scale, i);
+            let speed = self
+                .law
+                .wave_speed(&motion.deformation_gradient[i], state, &scale);
+            fastest = fastest.max(speed);
+        }
+        fastest
+    }
+
+    fn sweep(
+        &mut self,
+        runs: &[Run],
+        old: MotionSlices<'_, D>,
+        new: MotionSlicesMut<'_, D>,
+        constants: Constants<'_>,
+        kernel: &dyn RunKernel<D>,
+        settings: &SweepSettings,
+        tangents: Tangents<'_>,
+    ) -> Result<SweepTotals, SweepFailure> {
+        self.trial.resize(self.states.len(), M::State::default());
+        let sweep = Sweep {
+            law: &self.law,
+            constants,
+            kernel,
+            settings,
+        };
+        let part = Part {
+            first: 0,
+            old,
+            new,
+            states: &self.states,
+            trial: &mut self.trial,
+            tangents,
+        };
+        sweep.runs(runs, part)
+    }
+}
+
+fn scale_of(scale: Option<&[ParticleScale]>, index: usize) -> Scale {
+    scale.map_or_else(Scale::default, |scale| scale[index].0)
+}
+
+/// What all runs of a sweep share.
+struct Sweep<'a, M: Material, const D: usize> {
+    law: &'a M,
+    constants: Constants<'a>,
+    kernel: &'a dyn RunKernel<D>,
+    settings: &'a SweepSettings,
+}
+
+/// The columns of some consecutive runs, cut out of the body's.
+struct Part<'a, S, const D: usize> {
+    first: usize,
+    old: MotionSlices<'a, D>,
+    new: MotionSlicesMut<'a, D>,
+    states: &'a [S],
+    trial: &'a mut [S],
+    tangents: Tangents<'a>,
+}
+
+impl<'a, S, const D: usize> Part<'a, S, D> {
+    fn split_at(self, row: usize) -> (Self, Self) {
+        let (old_a, old_b) = self.old.split_at(row);
+        let (new_a, new_b) = self.new.split_at(row);
+        let (states_a, states_b) = self.states.split_at(row);
+        let (trial_a, trial_b) = self.trial.split_at_mut(row);
+        let (tangents_a, tangents_b) = self.tangents.split_at(row);
+        (
+            Self {
+                first: self.first,
+                old: old_a,
+                new: new_a,
+                states: states_a,
+                trial: trial_a,
+                tangents: tangents_a,
+            },
+            Self {
+                first: self.first + row,
+                old: old_b,
+                new: new_b,
+                states: states_b,
+                trial: trial_b,
+                tangents: tangents_b,
+            },
+        )
+    }
+}
+
+impl<M: Material, const D: usize> Sweep<'_, M, D> {
+    /// Halves the runs until one is left. The tree depends on the runs alone, so sums do too.
+    fn runs(
+        &self,
+        runs: &[Run],
+        part: Part<'_, M::State, D>,
+    ) -> Result<SweepTotals, SweepFailure> {
+        match runs {
+            [] => Ok(SweepTotals::default()),
+            [run] => self.run(run, part),
+            _ => {
+                let (left, right) = runs.split_at(runs.len() / 2);
+                let (a, b) = part.split_at((right[0].start - left[0].start) as usize);
+                let (a, b) = rayon::join(|| self.runs(left, a), || self.runs(right, b));
+                SweepFailure::first(a, b)
+            }
+        }
+    }
+
+    fn run(&self, run: &Run, part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
+        let Part {
+            first,
+            old,
+            mut new,
+            states,
+            trial,
+            mut tangents,
+        } = part;
+        if let Err(failure) = self.kernel.gather(run, &old, &mut new) {
+            return Err(self.failure(first + failure.row, SweepCause::Kernel));
+        }
+        let mut totals = SweepTotals::default();
+        let mut failure: Option<SweepFailure> = None;
+        for row in 0..old.len() {
+            let index = first + row;
+            let scale = scale_of(self.constants.scale, index);
+            let mut increment = Increment {
+                f_old: old.deformation_gradient[row],
+                f_new: new.deformation_gradient[row],
+                dt: self.settings.dt,
+                band: self.settings.band,
+                external: Default::default(),
+            };
+            increment.external.scale = scale;
+            let answer = match &mut tangents {
+                Tangents::None => self.law.update(&increment, &states[row]),
+                Tangents::Into(tangents) => self
+                    .law
+                    .update_with_tangent(&increment, &states[row])
+                    .map(|(response, tangent)| {
+                        tangents[row] = tangent;
+                        response
+                    }),
+            };
+            match answer.and_then(finite) {
+                Ok(response) => {
+                    let volume = self.constants.volume[index];
+                    trial[row] = response.state;
+                    new.stress[row] = response.stress;
+                    totals.stored += response.stored * volume;
+                    totals.dissipated += response.dissipated * volume;
+                    if let Some(stretch) = self.law.out_of_plane_stretch(&response.state) {
+                        new.deformation_gradient[row].m33 = stretch;
+                    }
+                    let speed = self.law.wave_speed(&increment.f_new, &trial[row], &scale);
+                    totals.wave_speed = totals.wave_speed.max(speed);
+                    let pressure = self.viscous_pressure(&increment, speed);
+                    if pressure > 0.0 {
+                        new.stress[row] -= Sym::IDENTITY * pressure;
+                        let compressed = increment.f_old.determinant() - increment.jacobian();
+                        totals.viscous += pressure * compressed * volume;
+                    }
+                }
+                Err(source) => {
+                    let cause = SweepCause::Law {
+                        source,
+                        deformation_gradient: Box::new(increment.f_new),
+                        state: format!("{:?}", states[row]),
+                    };
+                    let next = self.failure(index, cause);
+                    if failure.as_ref().is_none_or(|failure| next.id < failure.id) {
+                        failure = Some(next);
+                    }
+                }
+            }
+        }
+        failure.map_or(Ok(totals), Err)
+    }
+
+    /// Artificial pressure, Pa; zero in expansion.
+    fn viscous_pressure(&self, increment: &Increment, wave_speed: f64) -> f64 {
+        let Some(viscosity) = self.settings.viscosity else {
+            return 0.0;
+        };
+        let jacobian = increment.jacobian();
+        let rate = (increment.f_old.determinant() - jacobian) / (jacobian * self.settings.dt);
+        if rate <= 0.0 {
+            return 0.0;
+        }
+        let speed = rate * viscosity.length;
+        let density = self.constants.density / jacobian;
+        density * speed * (viscosity.linear * wave_speed + viscosity.quadratic * speed)
+    }
+
+    fn failure(&self, index: usize, cause: SweepCause) -> SweepFailure {
+        SweepFailure {
+            id: self.constants.id[index],
+            index,
+            cause,
+        }
+    }
+}
+
+/// A law must not hand over NaN in silence.
+fn finite<S: Copy + Debug>(response: Response<S>) -> Result<Response<S>, MaterialError> {
+    if response.stress.is_finite() && response.stored.is_finite() {
+        Ok(response)
+    } else {
+        Err(MaterialError::NotFinite { law: "law" })
+    }
+}
+
+/// Unused parts of a tangent column start from this.
+pub(crate) fn zero_tangents(tangents: &mut Vec<Tangent>, count: usize) {
+    tangents.resize(count, Tangent::zero());
+}

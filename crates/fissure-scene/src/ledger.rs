@@ -1,0 +1,102 @@
+//! The energy ledger and what a step reports.
+
+use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
+
+/// Energies of one step, J.
+///
+/// The ledger keeps apart what is an identity from what is an approximation:
+/// `external = Δkinetic_grid + internal` holds to round-off; `internal = Δstored + dissipated`
+/// to first order in the step; `kinetic_grid − kinetic_particles` is what the transfer between
+/// particles and grid loses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StepEnergy {
+    /// Work of loads, body forces and prescribed velocities.
+    pub external: f64,
+    /// Work of the internal forces on the nodal displacement, positive when it is stored.
+    pub internal: f64,
+    /// Stored energy at the end of the step.
+    pub stored: f64,
+    /// Energy dissipated by the laws in the step.
+    pub dissipated: f64,
+    /// Work of artificial viscosity in the step.
+    pub viscous: f64,
+    /// Kinetic energy of the grid before the nodes were accelerated.
+    pub kinetic_grid_start: f64,
+    /// Kinetic energy of the grid after.
+    pub kinetic_grid_end: f64,
+    /// Kinetic energy of the particles at the end of the step.
+    pub kinetic_particles: f64,
+}
+
+/// Energies since the start of a scene, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyTotals {
+    /// Work of loads, body forces and prescribed velocities.
+    pub external: f64,
+    /// Work of the internal forces.
+    pub internal: f64,
+    /// Stored energy now.
+    pub stored: f64,
+    /// Energy dissipated by the laws.
+    pub dissipated: f64,
+    /// Work of artificial viscosity.
+    pub viscous: f64,
+    /// Kinetic energy of the particles now.
+    pub kinetic: f64,
+    /// Kinetic energy lost between particles and grid, both ways.
+    pub transfer_loss: f64,
+    /// Largest `|external − Δkinetic_grid − internal|` of a step, over that step's largest term.
+    pub worst_balance: f64,
+}
+
+impl EnergyTotals {
+    /// Adds a step.
+    pub(crate) fn add(&mut self, step: &StepEnergy) {
+        self.external += step.external;
+        self.internal += step.internal;
+        self.stored = step.stored;
+        self.dissipated += step.dissipated;
+        self.viscous += step.viscous;
+        self.transfer_loss += (self.kinetic - step.kinetic_grid_start)
+            + (step.kinetic_grid_end - step.kinetic_particles);
+        self.kinetic = step.kinetic_particles;
+        let gain = step.kinetic_grid_end - step.kinetic_grid_start;
+        let scale = step
+            .external
+            .abs()
+            .max(step.internal.abs())
+            .max(step.kinetic_grid_end)
+            .max(step.kinetic_grid_start);
+        if scale > 0.0 {
+            let balance = (step.external - gain - step.internal).abs() / scale;
+            // `max` would drop a NaN.
+            if !(balance <= self.worst_balance) {
+                self.worst_balance = balance;
+            }
+        }
+    }
+
+    /// `internal − stored − dissipated − viscous`, J: the error of the time integration of the
+    /// laws. A scene that starts undeformed has it at zero.
+    pub fn imbalance(&self) -> f64 {
+        self.internal - self.stored - self.dissipated - self.viscous
+    }
+}
+
+/// What a solver says of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report<const D: usize> {
+    /// Number of the step, counted from 1.
+    pub step: u64,
+    /// Time at its end, s.
+    pub time: f64,
+    /// Its length, s.
+    pub dt: f64,
+    /// Its energies.
+    pub energy: StepEnergy,
+    /// Force that each condition exerts on the bodies, N, in the order of the scene's conditions.
+    pub reactions: Vec<SVector<f64, D>>,
+    /// Newton iterations; 0 for explicit steps.
+    pub iterations: usize,
+}

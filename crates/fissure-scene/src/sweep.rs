@@ -1,0 +1,150 @@
+//! The unit of work: a run of at most 64 particles of one tile.
+
+use fissure_materials::{MaterialError, Matrix3, Tangent};
+use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
+use fissure_tensor::Band;
+
+/// Consecutive particles of one body that lie in one tile of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// First particle, as an index into the body's columns.
+    pub start: u32,
+    /// One past the last.
+    pub end: u32,
+    /// Which tile; the solver's own numbering.
+    pub tile: u32,
+}
+
+impl Run {
+    /// Most particles of a run.
+    pub const MAX: usize = 64;
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        (self.end - self.start) as usize
+    }
+
+    /// Whether it holds none.
+    pub fn is_empty(&self) -> bool {
+        self.end == self.start
+    }
+}
+
+/// A particle of a run that a kernel could not move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KernelFailure {
+    /// Index within the run.
+    pub row: usize,
+}
+
+/// What a solver does to a run before the law sees it: fills the trial motion (at least the
+/// deformation gradient) from the present one.
+pub trait RunKernel<const D: usize>: Sync {
+    /// Fills `new` from `old`; both hold the particles of `run` only.
+    ///
+    /// # Errors
+    /// The first particle that is outside the grid.
+    fn gather(
+        &self,
+        run: &Run,
+        old: &MotionSlices<'_, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) -> Result<(), KernelFailure>;
+}
+
+/// Artificial bulk viscosity of von Neumann and Richtmyer: in compression at the rate `−D` the
+/// pressure `ρ ℓ D (linear·c + quadratic·ℓ D)` is added to the stress.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viscosity {
+    /// Coefficient of the linear term; usually 0.06 to 0.5.
+    pub linear: f64,
+    /// Coefficient of the quadratic term; usually 1.2 to 2.
+    pub quadratic: f64,
+    /// Length over which a shock is spread: the cell size, m.
+    pub length: f64,
+}
+
+/// What a sweep over a body needs to know besides the kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct SweepSettings {
+    /// Length of the step, s.
+    pub dt: f64,
+    /// Width over which cracks smear.
+    pub band: Band,
+    /// Artificial viscosity, if wanted.
+    pub viscosity: Option<Viscosity>,
+}
+
+/// Sums over the particles of a body, in an order that does not depend on threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SweepTotals {
+    /// Stored energy, J.
+    pub stored: f64,
+    /// Energy dissipated in the step, J.
+    pub dissipated: f64,
+    /// Work of artificial viscosity in the step, J.
+    pub viscous: f64,
+    /// Largest wave speed, m/s.
+    pub wave_speed: f64,
+}
+
+impl SweepTotals {
+    pub(crate) fn merge(self, other: Self) -> Self {
+        Self {
+            stored: self.stored + other.stored,
+            dissipated: self.dissipated + other.dissipated,
+            viscous: self.viscous + other.viscous,
+            wave_speed: self.wave_speed.max(other.wave_speed),
+        }
+    }
+}
+
+/// A particle that stopped a sweep; the one with the lowest id, whatever the threads did.
+#[derive(Clone, Debug)]
+pub(crate) struct SweepFailure {
+    pub id: ParticleId,
+    pub index: usize,
+    pub cause: SweepCause,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum SweepCause {
+    Kernel,
+    Law {
+        source: MaterialError,
+        deformation_gradient: Box<Matrix3<f64>>,
+        state: String,
+    },
+}
+
+impl SweepFailure {
+    /// Of two failures the one with the lower id, so that one input gives one error.
+    pub(crate) fn first(
+        a: Result<SweepTotals, Self>,
+        b: Result<SweepTotals, Self>,
+    ) -> Result<SweepTotals, Self> {
+        match (a, b) {
+            (Ok(a), Ok(b)) => Ok(a.merge(b)),
+            (Err(a), Err(b)) => Err(if a.id <= b.id { a } else { b }),
+            (Err(failure), Ok(_)) | (Ok(_), Err(failure)) => Err(failure),
+        }
+    }
+}
+
+/// Where a sweep puts the tangents, if it is to make them.
+pub(crate) enum Tangents<'a> {
+    None,
+    Into(&'a mut [Tangent]),
+}
+
+impl<'a> Tangents<'a> {
+    pub(crate) fn split_at(self, row: usize) -> (Self, Self) {
+        match self {
+            Self::None => (Self::None, Self::None),
+            Self::Into(slice) => {
+                let (a, b) = slice.split_at_mut(row);
+                (Self::Into(a), Self::Into(b))
+            }
+        }
+    }
+}

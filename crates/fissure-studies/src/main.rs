@@ -1,0 +1,16 @@
+//! Runs one study; see `--help`.
+
+use std::io;
+use std::process::ExitCode;
+
+use fissure_studies::framework::execute;
+use fissure_studies::studies;
+
+fn main() -> ExitCode {
+    ExitCode::from(execute(
+        &studies(),
+        std::env::args_os(),
+        &mut io::stdout(),
+        &mut io::stderr(),
+    ))
+}
