@@ -12,15 +12,16 @@ use crate::order::check_permutation;
 
 /// The entry type of an optional column, one entry per particle.
 pub trait Column: Copy + Default + Serialize + DeserializeOwned + Send + Sync + 'static {
-    /// The name under which checkpoints hold the column. No two types used in one body may share it.
+    /// The name under which checkpoints hold the column. No two types used in one body may share
+    /// it.
     const NAME: &'static str;
 }
 
 /// The optional columns of a body: those which a solver or a law asked for, each of its own type.
 ///
-/// Columns are found by type and, for checkpoints, by name. All have as many rows as the body has particles and are
-/// permuted together with the others. They are held in the order of their names, so that going through them is
-/// deterministic.
+/// Columns are found by type and, for checkpoints, by name. All have as many rows as the body has
+/// particles and are permuted together with the others. They are held in the order of their names,
+/// so that going through them is deterministic.
 ///
 /// ```
 /// use fissure_particles::{Affine, Extra};
@@ -102,8 +103,8 @@ impl Extra {
         Some(&mut column.downcast_mut::<TypedColumn<T>>()?.values)
     }
 
-    /// Takes the column of type `T` out, so that several can be written at once; [`Extra::put`] puts it back. A column
-    /// which is out takes no part in reordering, resizing and saving.
+    /// Takes the column of type `T` out, so that several can be written at once; [`Extra::put`]
+    /// puts it back. A column which is out takes no part in reordering, resizing and saving.
     pub fn take<T: Column>(&mut self) -> Option<Vec<T>> {
         let column = self.columns.get_mut(T::NAME)?.as_any_mut();
         let values = std::mem::take(&mut column.downcast_mut::<TypedColumn<T>>()?.values);
@@ -114,8 +115,8 @@ impl Extra {
     /// Puts a column in, in place of the one of its type if there is one.
     ///
     /// # Errors
-    /// [`ExtraError::Length`] if it has not one entry per particle, [`ExtraError::NameTaken`] if a column of another
-    /// type has its name.
+    /// [`ExtraError::Length`] if it has not one entry per particle, [`ExtraError::NameTaken`] if a
+    /// column of another type has its name.
     pub fn put<T: Column>(&mut self, values: Vec<T>) -> Result<(), ExtraError> {
         if values.len() != self.len {
             return Err(ExtraError::Length {
@@ -140,7 +141,8 @@ impl Extra {
     /// Brings all columns into a new order: row `i` becomes what row `order[i]` was.
     ///
     /// # Errors
-    /// [`ParticleError::ColumnLength`] or [`ParticleError::NotAPermutation`]; nothing is moved then.
+    /// [`ParticleError::ColumnLength`] or [`ParticleError::NotAPermutation`]; nothing is moved
+    /// then.
     pub fn reorder(&mut self, order: &[u32]) -> Result<(), ParticleError> {
         check_permutation(order, self.len, &mut Vec::new())?;
         self.reorder_checked(order);
@@ -153,10 +155,12 @@ impl Extra {
         }
     }
 
-    /// The column called `name` as bytes (postcard: the count, then the entries; floats bit for bit).
+    /// The column called `name` as bytes (postcard: the count, then the entries; floats bit for
+    /// bit).
     ///
     /// # Errors
-    /// [`ExtraError::UnknownColumn`] if there is none of this name, [`ExtraError::Encode`] if an entry refuses.
+    /// [`ExtraError::UnknownColumn`] if there is none of this name, [`ExtraError::Encode`] if an
+    /// entry refuses.
     pub fn save(&self, name: &str) -> Result<Vec<u8>, ExtraError> {
         match self.columns.get(name) {
             Some(column) => column.save(),
@@ -164,14 +168,17 @@ impl Extra {
         }
     }
 
-    /// Fills the column called `name` from what [`Extra::save`] gave. On an error the column stays as it was.
+    /// Fills the column called `name` from what [`Extra::save`] gave. On an error the column stays
+    /// as it was.
     ///
-    /// Only the type knows how to read its bytes, so that the column must have been made with [`Extra::ensure`]: a
-    /// checkpoint with a column which nobody asked for is refused rather than read in part.
+    /// Only the type knows how to read its bytes, so that the column must have been made with
+    /// [`Extra::ensure`]: a checkpoint with a column which nobody asked for is refused rather than
+    /// read in part.
     ///
     /// # Errors
-    /// [`ExtraError::UnknownColumn`] if there is none of this name, [`ExtraError::Length`] if the count differs from the
-    /// number of particles, [`ExtraError::Decode`] or [`ExtraError::LeftOver`] if the bytes are not those of the type.
+    /// [`ExtraError::UnknownColumn`] if there is none of this name, [`ExtraError::Length`] if the
+    /// count differs from the number of particles, [`ExtraError::Decode`] or
+    /// [`ExtraError::LeftOver`] if the bytes are not those of the type.
     pub fn load(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExtraError> {
         match self.columns.get_mut(name) {
             Some(column) => column.load(bytes),

@@ -62,7 +62,8 @@ impl<T: Column> AnyColumn for TypedColumn<T> {
             name: T::NAME,
             source: Box::new(error),
         };
-        // The count comes first and is looked at alone, so that a corrupted one is not worked through.
+        // The count comes first and is looked at alone, so that a corrupted one is not worked
+        // through.
         let (count, _) = postcard::take_from_bytes::<u64>(bytes).map_err(decode)?;
         if count != self.values.len() as u64 {
             return Err(ExtraError::Length {

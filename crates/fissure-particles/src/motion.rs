@@ -10,9 +10,9 @@ use crate::order::gather;
 
 /// The columns which a step writes, one row per particle.
 ///
-/// A body has two of these, the present and the trial: a step reads one, writes the other and swaps them, so that a
-/// failed step leaves the present as it was. Space has `D` dimensions; the deformation gradient and the stress are 3-D
-/// always, and plane strain keeps F₃₃ = 1.
+/// A body has two of these, the present and the trial: a step reads one, writes the other and swaps
+/// them, so that a failed step leaves the present as it was. Space has `D` dimensions; the
+/// deformation gradient and the stress are 3-D always, and plane strain keeps F₃₃ = 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion<const D: usize> {
     /// Present position, m.
@@ -26,7 +26,8 @@ pub struct Motion<const D: usize> {
 }
 
 impl<const D: usize> Motion<D> {
-    /// Number of rows. Columns of different lengths are the caller's mistake, which [`Motion::check`] reports.
+    /// Number of rows. Columns of different lengths are the caller's mistake, which
+    /// [`Motion::check`] reports.
     pub fn len(&self) -> usize {
         self.position.len()
     }
@@ -44,8 +45,8 @@ impl<const D: usize> Motion<D> {
         self.stress.push(Sym::default());
     }
 
-    /// Makes every column `len` rows long. New rows are at the origin, at rest, undeformed and free of stress; the
-    /// allocation is kept.
+    /// Makes every column `len` rows long. New rows are at the origin, at rest, undeformed and free
+    /// of stress; the allocation is kept.
     pub fn resize(&mut self, len: usize) {
         self.position.resize(len, SVector::zeros());
         self.velocity.resize(len, SVector::zeros());

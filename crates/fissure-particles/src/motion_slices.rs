@@ -27,7 +27,8 @@ impl<'a, const D: usize> MotionSlices<'a, D> {
         self.position.is_empty()
     }
 
-    /// The rows before `row` and those from `row` on. A `row` beyond the end leaves the second part empty.
+    /// The rows before `row` and those from `row` on. A `row` beyond the end leaves the second part
+    /// empty.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let row = row.min(self.len());
         let (position, position_rest) = split(self.position, row);
@@ -96,7 +97,8 @@ impl<'a, const D: usize> MotionSlicesMut<'a, D> {
         }
     }
 
-    /// The rows before `row` and those from `row` on. A `row` beyond the end leaves the second part empty.
+    /// The rows before `row` and those from `row` on. A `row` beyond the end leaves the second part
+    /// empty.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let row = row.min(self.len());
         let (position, position_rest) = split_mut(self.position, row);
@@ -119,7 +121,8 @@ impl<'a, const D: usize> MotionSlicesMut<'a, D> {
     }
 }
 
-// The fields are public, so that a column may have been made shorter than the others: clamped, not a panic.
+// The fields are public, so that a column may have been made shorter than the others: clamped, not
+// a panic.
 fn split<T>(column: &[T], row: usize) -> (&[T], &[T]) {
     column.split_at(row.min(column.len()))
 }

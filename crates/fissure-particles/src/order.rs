@@ -7,23 +7,27 @@ use crate::error::ParticleError;
 /// Fewer rows than this are moved by one thread: a second one would cost more than it saves.
 const PARALLEL_FROM: usize = 1 << 14;
 
-/// Writes to `out` the rows of `keys` in ascending order of their keys; rows of equal key keep their order.
+/// Writes to `out` the rows of `keys` in ascending order of their keys; rows of equal key keep
+/// their order.
 ///
-/// `out[new] = old`, as [`Particles::reorder`](crate::Particles::reorder) wants it. The result depends on `keys` alone.
-/// Keys which are nearly sorted already, as those of particles between two sorts, cost hardly more than one pass. Of
-/// more than `u32::MAX` keys only the first `u32::MAX` are sorted (no body is that large), and the reordering then refuses the short order.
+/// `out[new] = old`, as [`Particles::reorder`](crate::Particles::reorder) wants it. The result
+/// depends on `keys` alone. Keys which are nearly sorted already, as those of particles between two
+/// sorts, cost hardly more than one pass. Of more than `u32::MAX` keys only the first `u32::MAX`
+/// are sorted (no body is that large), and the reordering then refuses the short order.
 pub fn sort_permutation(keys: &[u64], out: &mut Vec<u32>) {
     out.clear();
     out.extend((0..u32::MAX).zip(keys).map(|(row, _)| row));
     out.sort_by_key(|&row| keys[row as usize]);
 }
 
-/// Brings a column which a body does not hold itself, such as the states of its law, into a new order: row `i` becomes
-/// what row `order[i]` was. `spare` is scratch; keep it between calls and nothing is allocated.
+/// Brings a column which a body does not hold itself, such as the states of its law, into a new
+/// order: row `i` becomes what row `order[i]` was. `spare` is scratch; keep it between calls and
+/// nothing is allocated.
 ///
 /// # Errors
-/// [`ParticleError::ColumnLength`] if `order` and `column` differ in length, [`ParticleError::NotAPermutation`] if an
-/// entry is no row. That each row occurs once is not checked here but in [`Particles::reorder`](crate::Particles::reorder).
+/// [`ParticleError::ColumnLength`] if `order` and `column` differ in length,
+/// [`ParticleError::NotAPermutation`] if an entry is no row. That each row occurs once is not
+/// checked here but in [`Particles::reorder`](crate::Particles::reorder).
 pub fn reorder_column<T: Copy + Send + Sync>(
     order: &[u32],
     column: &mut Vec<T>,

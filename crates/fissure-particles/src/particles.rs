@@ -9,7 +9,7 @@ use crate::error::ParticleError;
 use crate::extra::Extra;
 use crate::motion::Motion;
 use crate::order::{check_permutation, gather};
-use crate::seeds::Seeds;
+use crate::seeding::Seeds;
 
 /// Names a particle of a body for good: given once, kept when the particles are sorted.
 #[derive(
@@ -17,11 +17,13 @@ use crate::seeds::Seeds;
 )]
 pub struct ParticleId(pub u32);
 
-/// The particles of a body, in columns of equal length; row `i` of each belongs to the same particle.
+/// The particles of a body, in columns of equal length; row `i` of each belongs to the same
+/// particle.
 ///
 /// Id, mass and volume do not change in a step. Made with [`Particles::default`] and filled with
-/// [`Particles::extend_from_seeds`] or [`Particles::push`], or from stored columns with [`Particles::from_columns`].
-/// Whoever writes to the columns directly can have them checked by [`Particles::check`].
+/// [`Particles::extend_from_seeds`] or [`Particles::push`], or from stored columns with
+/// [`Particles::from_columns`]. Whoever writes to the columns directly can have them checked by
+/// [`Particles::check`].
 #[derive(Clone, Debug, Default)]
 pub struct Particles<const D: usize> {
     /// Names, unique in the body.
@@ -48,10 +50,12 @@ struct Scratch {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Particles from stored columns: ids, masses (kg), reference volumes (m³) and motion. No optional columns.
+    /// Particles from stored columns: ids, masses (kg), reference volumes (m³) and motion. No
+    /// optional columns.
     ///
     /// # Errors
-    /// [`ParticleError::ColumnLength`], [`ParticleError::RepeatedId`] or [`ParticleError::TooMany`].
+    /// [`ParticleError::ColumnLength`], [`ParticleError::RepeatedId`] or
+    /// [`ParticleError::TooMany`].
     pub fn from_columns(
         id: Vec<ParticleId>,
         mass: Vec<f64>,
@@ -83,11 +87,13 @@ impl<const D: usize> Particles<D> {
         self.id.is_empty()
     }
 
-    /// Adds an undeformed particle free of stress and returns its id. `position` in m, `velocity` in m/s, `mass` in
-    /// kg (zero is for bodies whose motion is prescribed), reference `volume` in m³. Optional columns get their default.
+    /// Adds an undeformed particle free of stress and returns its id. `position` in m, `velocity`
+    /// in m/s, `mass` in kg (zero is for bodies whose motion is prescribed), reference `volume` in
+    /// m³. Optional columns get their default.
     ///
     /// # Errors
-    /// [`ParticleError::OutOfRange`] for a number outside its range, [`ParticleError::TooMany`] when ids run out.
+    /// [`ParticleError::OutOfRange`] for a number outside its range, [`ParticleError::TooMany`]
+    /// when ids run out.
     pub fn push(
         &mut self,
         position: SVector<f64, D>,
@@ -118,13 +124,13 @@ impl<const D: usize> Particles<D> {
         Ok(id)
     }
 
-    /// Adds a particle at rest for each seed and returns the rows they take. `density` in kg/m³ (zero is for bodies
-    /// whose motion is prescribed); `thickness` in m turns the seeds' measure into a volume and is 1 (no unit) where
-    /// `D` = 3.
+    /// Adds a particle at rest for each seed and returns the rows they take. `density` in kg/m³
+    /// (zero is for bodies whose motion is prescribed); `thickness` in m turns the seeds' measure
+    /// into a volume and is 1 (no unit) where `D` = 3.
     ///
     /// # Errors
-    /// [`ParticleError::OutOfRange`] or [`ParticleError::ColumnLength`] for numbers or seeds which are not usable,
-    /// [`ParticleError::TooMany`] when ids run out; no particle is added then.
+    /// [`ParticleError::OutOfRange`] or [`ParticleError::ColumnLength`] for numbers or seeds which
+    /// are not usable, [`ParticleError::TooMany`] when ids run out; no particle is added then.
     pub fn extend_from_seeds(
         &mut self,
         seeds: &Seeds<D>,
@@ -153,27 +159,31 @@ impl<const D: usize> Particles<D> {
         Ok(first..self.len())
     }
 
-    /// Gives the trial motion as many rows as the present one, without copying it: a step writes every row. What was
-    /// allocated before is used again.
+    /// Gives the trial motion as many rows as the present one, without copying it: a step writes
+    /// every row. What was allocated before is used again.
     pub fn make_trial(&mut self) {
         self.trial.resize(self.motion.len());
     }
 
-    /// Makes the trial motion the present one; the former present one becomes the next trial's storage.
+    /// Makes the trial motion the present one; the former present one becomes the next trial's
+    /// storage.
     ///
     /// # Errors
-    /// [`ParticleError::ColumnLength`] if the trial has not a row per particle; nothing is swapped then.
+    /// [`ParticleError::ColumnLength`] if the trial has not a row per particle; nothing is swapped
+    /// then.
     pub fn commit(&mut self) -> Result<(), ParticleError> {
         self.trial.check(self.id.len())?;
         std::mem::swap(&mut self.motion, &mut self.trial);
         Ok(())
     }
 
-    /// Brings all columns into a new order: row `i` becomes what row `order[i]` was. The storage of the trial motion
-    /// is used for it, so that what a step wrote there is lost: sort before a step, not within it.
+    /// Brings all columns into a new order: row `i` becomes what row `order[i]` was. The storage of
+    /// the trial motion is used for it, so that what a step wrote there is lost: sort before a
+    /// step, not within it.
     ///
     /// # Errors
-    /// [`ParticleError::ColumnLength`] or [`ParticleError::NotAPermutation`]; nothing is moved then.
+    /// [`ParticleError::ColumnLength`] or [`ParticleError::NotAPermutation`]; nothing is moved
+    /// then.
     pub fn reorder(&mut self, order: &[u32]) -> Result<(), ParticleError> {
         check_permutation(order, self.id.len(), &mut self.scratch.seen)?;
         self.check_lengths()?;
@@ -190,10 +200,12 @@ impl<const D: usize> Particles<D> {
         Ok(())
     }
 
-    /// All columns must have the same length and all ids must differ. Sorts a copy of the ids: not for every step.
+    /// All columns must have the same length and all ids must differ. Sorts a copy of the ids: not
+    /// for every step.
     ///
     /// # Errors
-    /// [`ParticleError::ColumnLength`], [`ParticleError::RepeatedId`] or [`ParticleError::TooMany`].
+    /// [`ParticleError::ColumnLength`], [`ParticleError::RepeatedId`] or
+    /// [`ParticleError::TooMany`].
     pub fn check(&self) -> Result<(), ParticleError> {
         self.check_lengths()?;
         too_many(self.id.len())?;
