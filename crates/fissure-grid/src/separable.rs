@@ -95,21 +95,21 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
                     let both = value[1][j] * value[2][k];
-                    for i in 0..K {
-                        f(start + i, value[0][i] * both);
+                    for (i, along) in value[0].iter().enumerate() {
+                        f(start + i, along * both);
                     }
                 }
             }
         } else if D == 2 {
             for j in 0..K {
                 let start = self.base + ROW * j;
-                for i in 0..K {
-                    f(start + i, value[0][i] * value[1][j]);
+                for (i, along) in value[0].iter().enumerate() {
+                    f(start + i, along * value[1][j]);
                 }
             }
         } else {
-            for i in 0..K {
-                f(self.base + i, value[0][i]);
+            for (i, &along) in value[0].iter().enumerate() {
+                f(self.base + i, along);
             }
         }
     }

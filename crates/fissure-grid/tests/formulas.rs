@@ -3,6 +3,7 @@
 mod support;
 
 use fissure_grid::{Grid, Shape, shape};
+use fissure_tensor::Band;
 use nalgebra::{Matrix1, Matrix2, Matrix3, Rotation2, Rotation3, Vector1, Vector2, Vector3};
 use support::{deformation, nodes, spread};
 
@@ -236,4 +237,16 @@ fn names_are_fixed() {
         name(shape::Bspline3),
     ];
     assert_eq!(names, ["linear", "gimp", "cpdi", "bspline2", "bspline3"]);
+}
+
+#[test]
+fn bands_follow_the_spacing() {
+    fn band(shape: impl Shape<2>) -> Band {
+        shape.band(0.5)
+    }
+    assert_eq!(band(shape::Linear), Band::Projected([0.5; 3]));
+    assert_eq!(band(shape::Gimp), Band::Uniform(0.5));
+    assert_eq!(band(shape::Cpdi), Band::Uniform(0.5));
+    assert_eq!(band(shape::Bspline2), Band::Uniform(1.0));
+    assert_eq!(band(shape::Bspline3), Band::Uniform(1.5));
 }

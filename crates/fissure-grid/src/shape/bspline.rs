@@ -1,5 +1,6 @@
 //! Uniform B-splines of second and third degree (Steffen, Kirby & Berzins 2008), not modified at the grid's faces.
 
+use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::separable::Line;
@@ -34,6 +35,10 @@ impl<const D: usize> Shape<D> for Bspline2 {
     fn reach(&self) -> (i32, i32) {
         (1, 2)
     }
+
+    fn band(&self, spacing: f64) -> Band {
+        Band::Uniform(2.0 * spacing)
+    }
 }
 
 impl<const D: usize> Shape<D> for Bspline3 {
@@ -56,6 +61,10 @@ impl<const D: usize> Shape<D> for Bspline3 {
 
     fn reach(&self) -> (i32, i32) {
         (1, 2)
+    }
+
+    fn band(&self, spacing: f64) -> Band {
+        Band::Uniform(3.0 * spacing)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Convected particle domains: linear functions sampled at the corners of a domain that deforms with the particle.
 
+use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::window::window_start;
@@ -67,11 +68,11 @@ impl<const D: usize> Shape<D> for Cpdi {
         for corner in 0..1 << D {
             let at = local + edges * signs(corner);
             for axis in 0..D {
-                // The bounds only catch roundings of a domain that extends exactly one cell.
-                let offset = at[axis].floor().clamp(-1.0, 1.0);
-                corners.locals[corner][axis] = at[axis] - offset;
+                // The corner is at most one cell away, so this is the floor.
+                let offset = i32::from(at[axis] >= 1.0) - i32::from(at[axis] < 0.0);
+                corners.locals[corner][axis] = at[axis] - f64::from(offset);
                 corners.bases[corner] +=
-                    window_start(tile[axis], cell[axis] + offset as i32, 2)? << (3 * axis);
+                    window_start(tile[axis], cell[axis] + offset, 2)? << (3 * axis);
             }
         }
         Some(corners)
@@ -79,6 +80,10 @@ impl<const D: usize> Shape<D> for Cpdi {
 
     fn reach(&self) -> (i32, i32) {
         (1, 2)
+    }
+
+    fn band(&self, spacing: f64) -> Band {
+        Band::Uniform(spacing)
     }
 }
 

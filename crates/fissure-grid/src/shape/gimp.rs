@@ -1,5 +1,6 @@
 //! Linear functions averaged over the particle's box.
 
+use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::separable::Line;
@@ -34,12 +35,18 @@ impl<const D: usize> Shape<D> for Gimp {
         if !(0.0..=0.5 + SLACK).contains(&half) {
             return None;
         }
-        let half = half.min(0.5);
-        Separable::new(grid, tile, x, |t| averaged(t, half))
+        // A point is the limit of a small box.
+        let half = half.clamp(f64::MIN_POSITIVE, 0.5);
+        let inverse = 0.5 / half;
+        Separable::new(grid, tile, x, |t| averaged(t, half, inverse))
     }
 
     fn reach(&self) -> (i32, i32) {
         (1, 2)
+    }
+
+    fn band(&self, spacing: f64) -> Band {
+        Band::Uniform(spacing)
     }
 }
 
@@ -64,25 +71,22 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
     }
 }
 
-/// Weights of the nearest node and the ones beside it for a box of half-length `l` ≤ ½ cell. Written with the distance
-/// `d` to the nearest node, so that small boxes lose no digits.
+/// Weights of the nearest node and the ones beside it for a box of half-length `l` in (0, ½] cells, `inverse` = 1/(2l).
+///
+/// Written with the distance `d` to the nearest node, so that small boxes lose no digits, and without branches, which
+/// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
+/// the kink is outside, and the rest of `d` acts as on linear functions.
 #[inline]
-fn averaged(t: f64, l: f64) -> Line<3> {
+fn averaged(t: f64, l: f64, inverse: f64) -> Line<3> {
     let nearest = i32::from(t >= 0.5);
     let d = t - f64::from(nearest);
-    let first = nearest - 1;
-    if d >= l {
-        (first, [0.0, 1.0 - d, d], [0.0, -1.0, 1.0])
-    } else if d <= -l {
-        (first, [-d, 1.0 + d, 0.0], [-1.0, 1.0, 0.0])
-    } else {
-        // The node's kink is inside the box: parts of length l − d and l + d lie below and above it.
-        let (below, above) = ((l - d) / (2.0 * l), (l + d) / (2.0 * l));
-        let (low, high) = (0.5 * below * (l - d), 0.5 * above * (l + d));
-        (
-            first,
-            [low, 1.0 - (low + high), high],
-            [-below, below - above, above],
-        )
-    }
+    let a = d.clamp(-l, l);
+    let (below, above) = ((l - a) * inverse, (l + a) * inverse);
+    let low = 0.5 * below * (l - a) + (a - d).max(0.0);
+    let high = 0.5 * above * (l + a) + (d - a).max(0.0);
+    (
+        nearest - 1,
+        [low, 1.0 - (low + high), high],
+        [-below, below - above, above],
+    )
 }

@@ -1,5 +1,6 @@
 //! Linear functions: the corners of the particle's cell.
 
+use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::{Grid, Separable, Shape};
@@ -28,5 +29,9 @@ impl<const D: usize> Shape<D> for Linear {
 
     fn reach(&self) -> (i32, i32) {
         (0, 1)
+    }
+
+    fn band(&self, spacing: f64) -> Band {
+        Band::Projected([spacing; 3])
     }
 }
