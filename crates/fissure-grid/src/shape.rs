@@ -67,4 +67,11 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     /// h/8 and h/4 it dissipates 1.31 and 1.44 times as much. The onset of softening in the splines wants less, 1.5 h and
     /// 1.82 h.
     fn band(&self, spacing: f64) -> Band;
+
+    /// Inverse of APIC's moment `Σ N (x_i − x)(x_i − x)ᵀ`, 1/m², where it is a multiple of the identity that does not
+    /// depend on the place (splines: 4/h², 3/h²). `None` elsewhere: the velocity gradient is then the affine part, which
+    /// is the same thing for linear functions [Jiang et al. 2015].
+    fn affine_inverse(&self, _spacing: f64) -> Option<f64> {
+        None
+    }
 }

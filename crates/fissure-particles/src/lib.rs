@@ -35,7 +35,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod affine;
 mod error;
 mod extra;
 mod extra_column;
@@ -46,7 +45,6 @@ mod particles;
 mod region;
 mod seeding;
 
-pub use affine::Affine;
 pub use error::{ExtraError, ParticleError};
 pub use extra::{Column, Extra};
 pub use motion::Motion;

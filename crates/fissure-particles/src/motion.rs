@@ -1,7 +1,7 @@
 //! The columns which a step writes.
 
 use fissure_tensor::Sym;
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::ParticleError;
@@ -23,6 +23,9 @@ pub struct Motion<const D: usize> {
     pub deformation_gradient: Vec<Matrix3<f64>>,
     /// Cauchy stress, Pa.
     pub stress: Vec<Sym>,
+    /// Velocity gradient of an affine transfer (APIC), 1/s. Empty unless a solver asks for it with
+    /// [`ensure_affine`](Self::ensure_affine).
+    pub affine: Vec<SMatrix<f64, D, D>>,
 }
 
 impl<const D: usize> Motion<D> {
@@ -43,6 +46,9 @@ impl<const D: usize> Motion<D> {
         self.velocity.push(velocity);
         self.deformation_gradient.push(Matrix3::identity());
         self.stress.push(Sym::default());
+        if !self.affine.is_empty() {
+            self.affine.push(SMatrix::zeros());
+        }
     }
 
     /// Makes every column `len` rows long. New rows are at the origin, at rest, undeformed and free
@@ -52,6 +58,14 @@ impl<const D: usize> Motion<D> {
         self.velocity.resize(len, SVector::zeros());
         self.deformation_gradient.resize(len, Matrix3::identity());
         self.stress.resize(len, Sym::default());
+        if !self.affine.is_empty() {
+            self.affine.resize(len, SMatrix::zeros());
+        }
+    }
+
+    /// Makes the affine column, filled with zeros, if it is not there.
+    pub fn ensure_affine(&mut self) {
+        self.affine.resize(self.position.len(), SMatrix::zeros());
     }
 
     /// All rows, to read.
@@ -61,6 +75,7 @@ impl<const D: usize> Motion<D> {
             velocity: &self.velocity,
             deformation_gradient: &self.deformation_gradient,
             stress: &self.stress,
+            affine: &self.affine,
         }
     }
 
@@ -71,6 +86,7 @@ impl<const D: usize> Motion<D> {
             velocity: &mut self.velocity,
             deformation_gradient: &mut self.deformation_gradient,
             stress: &mut self.stress,
+            affine: &mut self.affine,
         }
     }
 
@@ -84,6 +100,14 @@ impl<const D: usize> Motion<D> {
             ("velocity", self.velocity.len()),
             ("deformation_gradient", self.deformation_gradient.len()),
             ("stress", self.stress.len()),
+            (
+                "affine",
+                if self.affine.is_empty() {
+                    expected
+                } else {
+                    self.affine.len()
+                },
+            ),
         ];
         for (column, found) in columns {
             if found != expected {
@@ -107,5 +131,10 @@ impl<const D: usize> Motion<D> {
             &mut self.deformation_gradient,
         );
         gather(order, &from.stress, &mut self.stress);
+        if from.affine.is_empty() {
+            self.affine.clear();
+        } else {
+            gather(order, &from.affine, &mut self.affine);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Borrowed ranges of the columns of a motion, which can be split into disjoint ranges.
 
 use fissure_tensor::Sym;
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// A range of rows of a [`Motion`](crate::Motion), to read. The columns have the same length.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct MotionSlices<'a, const D: usize> {
     pub deformation_gradient: &'a [Matrix3<f64>],
     /// Cauchy stress, Pa.
     pub stress: &'a [Sym],
+    /// Velocity gradients of an affine transfer, 1/s; empty unless asked for.
+    pub affine: &'a [SMatrix<f64, D, D>],
 }
 
 impl<'a, const D: usize> MotionSlices<'a, D> {
@@ -35,17 +37,20 @@ impl<'a, const D: usize> MotionSlices<'a, D> {
         let (velocity, velocity_rest) = split(self.velocity, row);
         let (gradient, gradient_rest) = split(self.deformation_gradient, row);
         let (stress, stress_rest) = split(self.stress, row);
+        let (affine, affine_rest) = split(self.affine, row);
         let first = Self {
             position,
             velocity,
             deformation_gradient: gradient,
             stress,
+            affine,
         };
         let rest = Self {
             position: position_rest,
             velocity: velocity_rest,
             deformation_gradient: gradient_rest,
             stress: stress_rest,
+            affine: affine_rest,
         };
         (first, rest)
     }
@@ -64,6 +69,8 @@ pub struct MotionSlicesMut<'a, const D: usize> {
     pub deformation_gradient: &'a mut [Matrix3<f64>],
     /// Cauchy stress, Pa.
     pub stress: &'a mut [Sym],
+    /// Velocity gradients of an affine transfer, 1/s; empty unless asked for.
+    pub affine: &'a mut [SMatrix<f64, D, D>],
 }
 
 impl<'a, const D: usize> MotionSlicesMut<'a, D> {
@@ -84,6 +91,7 @@ impl<'a, const D: usize> MotionSlicesMut<'a, D> {
             velocity: self.velocity,
             deformation_gradient: self.deformation_gradient,
             stress: self.stress,
+            affine: self.affine,
         }
     }
 
@@ -94,6 +102,7 @@ impl<'a, const D: usize> MotionSlicesMut<'a, D> {
             velocity: self.velocity,
             deformation_gradient: self.deformation_gradient,
             stress: self.stress,
+            affine: self.affine,
         }
     }
 
@@ -105,17 +114,20 @@ impl<'a, const D: usize> MotionSlicesMut<'a, D> {
         let (velocity, velocity_rest) = split_mut(self.velocity, row);
         let (gradient, gradient_rest) = split_mut(self.deformation_gradient, row);
         let (stress, stress_rest) = split_mut(self.stress, row);
+        let (affine, affine_rest) = split_mut(self.affine, row);
         let first = Self {
             position,
             velocity,
             deformation_gradient: gradient,
             stress,
+            affine,
         };
         let rest = Self {
             position: position_rest,
             velocity: velocity_rest,
             deformation_gradient: gradient_rest,
             stress: stress_rest,
+            affine: affine_rest,
         };
         (first, rest)
     }

@@ -163,6 +163,11 @@ impl<const D: usize> Particles<D> {
     /// every row. What was allocated before is used again.
     pub fn make_trial(&mut self) {
         self.trial.resize(self.motion.len());
+        if self.motion.affine.is_empty() {
+            self.trial.affine.clear();
+        } else {
+            self.trial.ensure_affine();
+        }
     }
 
     /// Makes the trial motion the present one; the former present one becomes the next trial's

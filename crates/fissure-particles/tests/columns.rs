@@ -1,14 +1,26 @@
 //! Columns: ids, reordering, trial and commit, optional columns and their bytes.
 
 use fissure_particles::{
-    Affine, Column, Extra, ExtraError, ParticleError, ParticleId, Particles, Seeds,
-    sort_permutation,
+    Column, Extra, ExtraError, ParticleError, ParticleId, Particles, Seeds, sort_permutation,
 };
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 use proptest::prelude::*;
 use serde::{Deserialize, Serialize};
 
-#[derive(Clone, Copy, Default, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Affine<const D: usize>(SMatrix<f64, D, D>);
+
+impl<const D: usize> Default for Affine<D> {
+    fn default() -> Self {
+        Self(SMatrix::zeros())
+    }
+}
+
+impl<const D: usize> Column for Affine<D> {
+    const NAME: &'static str = if D == 2 { "affine-2d" } else { "affine" };
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Heat {
     temperature: f64,
     zone: u16,

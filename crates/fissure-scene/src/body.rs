@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SolveError;
 use crate::law::{BodyLaw, Constants, SweepLaw, zero_tangents};
-use crate::sweep::{Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents};
+use crate::sweep::{
+    Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
+};
 
 /// Optional column: factors on the law's parameters, particle by particle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

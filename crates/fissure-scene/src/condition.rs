@@ -49,8 +49,7 @@ impl TimeFunction for Constant {
 }
 
 /// A vector that changes with time.
-pub(crate) type VectorFunction<const D: usize> =
-    Box<dyn Fn(f64) -> SVector<f64, D> + Send + Sync>;
+pub(crate) type VectorFunction<const D: usize> = Box<dyn Fn(f64) -> SVector<f64, D> + Send + Sync>;
 
 /// The particles a condition acts on.
 #[derive(Clone, Debug, PartialEq)]

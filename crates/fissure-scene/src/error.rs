@@ -5,7 +5,7 @@ use fissure_particles::{ExtraError, ParticleError, ParticleId, SeedError};
 use thiserror::Error;
 
 /// Why a scene refused what it was given.
-#[derive(Clone, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum SceneError {
     /// A number is outside its permitted range.
     #[error("'{parameter}' is {value}; permitted: {permitted}")]
@@ -82,7 +82,7 @@ pub enum SceneError {
 }
 
 /// Why a step failed. The scene is then as it was before the step.
-#[derive(Clone, Debug, Error)]
+#[derive(Debug, Error)]
 pub enum SolveError {
     /// A law could not follow a particle.
     #[error(
@@ -196,7 +196,7 @@ pub enum SolveError {
 }
 
 /// Why a watch failed.
-#[derive(Debug, Error, Clone)]
+#[derive(Debug, Error)]
 pub enum WatchError {
     /// It asked for something the scene does not have.
     #[error("no {kind} is called '{name}'")]
@@ -208,7 +208,7 @@ pub enum WatchError {
     },
     /// It could not write.
     #[error("{0}")]
-    Write(std::sync::Arc<dyn std::error::Error + Send + Sync>),
+    Write(#[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 /// Why a scene could not be saved or restored.

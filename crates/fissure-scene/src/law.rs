@@ -2,17 +2,15 @@
 
 use std::fmt::Debug;
 
-use fissure_materials::{
-    Increment, Material, MaterialError, Response, Scale, Tangent,
-};
+use fissure_materials::{Increment, Material, MaterialError, Response, Scale, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, Sym};
 
+use crate::PersistError;
 use crate::body::ParticleScale;
 use crate::sweep::{
     Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
-use crate::PersistError;
 
 /// Columns of a body that a sweep reads besides the motion.
 #[derive(Clone, Copy)]
@@ -243,11 +241,7 @@ impl<'a, S, const D: usize> Part<'a, S, D> {
 
 impl<M: Material, const D: usize> Sweep<'_, M, D> {
     /// Halves the runs until one is left. The tree depends on the runs alone, so sums do too.
-    fn runs(
-        &self,
-        runs: &[Run],
-        part: Part<'_, M::State, D>,
-    ) -> Result<SweepTotals, SweepFailure> {
+    fn runs(&self, runs: &[Run], part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
         match runs {
             [] => Ok(SweepTotals::default()),
             [run] => self.run(run, part),

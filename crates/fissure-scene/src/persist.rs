@@ -74,13 +74,14 @@ impl<const D: usize> Scene<D> {
             sections.push(Section { name, bytes });
             for column in &extra {
                 let name = format!("{}/extra/{column}", body.name);
-                let bytes = particles
-                    .extra
-                    .save(column)
-                    .map_err(|source| PersistError::Column {
-                        section: name.clone(),
-                        source,
-                    })?;
+                let bytes =
+                    particles
+                        .extra
+                        .save(column)
+                        .map_err(|source| PersistError::Column {
+                            section: name.clone(),
+                            source,
+                        })?;
                 sections.push(Section { name, bytes });
             }
         }
@@ -98,17 +99,32 @@ impl<const D: usize> Scene<D> {
         self.step = clock.step;
         self.energy = clock.energy;
         self.reactions = clock.reactions;
-        fits("scene", "number of conditions", clock.rigid.len(), self.conditions.len())?;
+        fits(
+            "scene",
+            "number of conditions",
+            clock.rigid.len(),
+            self.conditions.len(),
+        )?;
         for (condition, saved) in self.conditions.iter_mut().zip(clock.rigid) {
             if let Selection::Rigid { position, .. } = &mut condition.selection {
-                fits("scene", "number of rigid particles", saved.len(), position.len())?;
+                fits(
+                    "scene",
+                    "number of rigid particles",
+                    saved.len(),
+                    position.len(),
+                )?;
                 *position = saved;
             }
         }
         for body in &mut self.bodies {
             let name = format!("{}/particles", body.name);
             let columns: Columns<D> = decode(sections, &name)?;
-            fits(&name, "number of particles", columns.id.len(), body.particles.len())?;
+            fits(
+                &name,
+                "number of particles",
+                columns.id.len(),
+                body.particles.len(),
+            )?;
             let Columns {
                 id,
                 mass,

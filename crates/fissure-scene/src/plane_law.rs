@@ -1,10 +1,6 @@
-//! Plane stress: every law of the scene in its wrapper.
-
-use fissure_materials::{Material, PlaneStress};
-
+//! tmp
 use crate::law::{SweepLaw, TypedLaw};
-
-/// The law in its plane-stress wrapper, erased.
+use fissure_materials::Material;
 pub(crate) fn plane_stress<M: Material, const D: usize>(law: M) -> Box<dyn SweepLaw<D>> {
-    Box::new(TypedLaw::new(PlaneStress::new(law)))
+    Box::new(TypedLaw::new(law))
 }

@@ -78,12 +78,10 @@ impl<const D: usize> Scene<D> {
         region: &dyn Region<D>,
         seeding: &dyn Seeding<D>,
     ) -> Result<&mut Self, SceneError> {
-        let seeds = seeding
-            .seed(region)
-            .map_err(|source| SceneError::Seed {
-                body: name.to_owned(),
-                source,
-            })?;
+        let seeds = seeding.seed(region).map_err(|source| SceneError::Seed {
+            body: name.to_owned(),
+            source,
+        })?;
         self.add_body(name, law, seeds)
     }
 
@@ -149,12 +147,10 @@ impl<const D: usize> Scene<D> {
         hold: Hold<D>,
         speed: impl TimeFunction + 'static,
     ) -> Result<&mut Self, SceneError> {
-        let seeds = seeding
-            .seed(region)
-            .map_err(|source| SceneError::Seed {
-                body: name.to_owned(),
-                source,
-            })?;
+        let seeds = seeding.seed(region).map_err(|source| SceneError::Seed {
+            body: name.to_owned(),
+            source,
+        })?;
         let selection = Selection::Rigid {
             position: seeds.position,
             half_edges: seeds.half_edges,
@@ -355,7 +351,12 @@ impl<const D: usize> Scene<D> {
     /// Force that the condition of this name exerted on the bodies in the last step, N.
     pub fn reaction(&self, name: &str) -> Option<SVector<f64, D>> {
         let index = self.conditions.iter().position(|c| c.name == name)?;
-        Some(self.reactions.get(index).copied().unwrap_or_else(SVector::zeros))
+        Some(
+            self.reactions
+                .get(index)
+                .copied()
+                .unwrap_or_else(SVector::zeros),
+        )
     }
 
     /// Counts the changes a user made; solvers prepare anew when it moves.
@@ -424,8 +425,10 @@ impl<const D: usize> Scene<D> {
         let index = self.body_index(body)?;
         let particles = &self.bodies[index].particles;
         let pairs = particles.id.iter().zip(&particles.motion.position);
-        let mut ids: Vec<ParticleId> =
-            pairs.filter(|(_, x)| select(x)).map(|(id, _)| *id).collect();
+        let mut ids: Vec<ParticleId> = pairs
+            .filter(|(_, x)| select(x))
+            .map(|(id, _)| *id)
+            .collect();
         if ids.is_empty() {
             return Err(SceneError::EmptySelection {
                 name: name.to_owned(),

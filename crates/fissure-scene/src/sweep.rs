@@ -89,7 +89,8 @@ pub struct SweepTotals {
 }
 
 impl SweepTotals {
-    pub(crate) fn merge(self, other: Self) -> Self {
+    /// Sums of two sets of particles.
+    pub fn merge(self, other: Self) -> Self {
         Self {
             stored: self.stored + other.stored,
             dissipated: self.dissipated + other.dissipated,

@@ -125,9 +125,9 @@ impl<const D: usize> Placement<D> {
     /// The node of a grid index, if its tile is held.
     pub(crate) fn node(&self, index: [i32; D]) -> Option<usize> {
         let tile = self.tiles.find(tile_of(index))?;
-        let local = (0..D).rev().fold(0, |sum, axis| {
-            sum * 4 + index[axis].rem_euclid(4) as usize
-        });
+        let local = (0..D)
+            .rev()
+            .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
         Some(tile * Tiles::<D>::NODES + local)
     }
 

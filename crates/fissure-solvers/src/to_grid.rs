@@ -6,7 +6,7 @@
 
 use fissure_grid::{Grid, Shape, Stencil, Tiles, window_map};
 use fissure_particles::Particles;
-use fissure_scene::{Body, Kinematics, KernelFailure, Scene};
+use fissure_scene::{Body, Kinematics, Scene};
 use fissure_tensor::Sym;
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
@@ -91,7 +91,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         &self,
         scene: &Scene<D>,
         sums: &mut Sums<D>,
-        give: impl Fn(&Body<D>, usize, &S::Stencil, &NodeLookup<'_, D>) -> Gift<D> + Sync,
+        give: impl Fn(&Body<D>, usize, &S::Stencil, &NodeLookup<D>) -> Gift<D> + Sync,
     ) -> Result<(), (usize, usize)> {
         let window = window_map::<D>().len();
         let occupied = self.placement.tiles.occupied();
@@ -118,7 +118,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         scene: &Scene<D>,
         slot: usize,
         window: &mut [NodeSum<D>],
-        give: &(impl Fn(&Body<D>, usize, &S::Stencil, &NodeLookup<'_, D>) -> Gift<D> + Sync),
+        give: &(impl Fn(&Body<D>, usize, &S::Stencil, &NodeLookup<D>) -> Gift<D> + Sync),
     ) -> Result<(), (usize, usize)> {
         let tile = self.placement.tiles.occupied()[slot] as usize;
         let coordinates = self.placement.tiles.coordinates(tile);
@@ -175,7 +175,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
             .for_each(|(tile, nodes)| {
                 nodes.fill(NodeSum::default());
                 for (neighbour, &other) in tiles.around(tile).iter().enumerate() {
-                    let Some(&slot) = slot_of(self.placement, other).as_ref() else {
+                    let Some(slot) = slot_of(self.placement, other) else {
                         continue;
                     };
                     let source = &windows[slot * window..(slot + 1) * window];
@@ -233,15 +233,14 @@ impl<const D: usize> InternalForce<D> {
 }
 
 /// From entries of one tile's window to nodes.
-pub(crate) struct NodeLookup<'a, const D: usize> {
+pub(crate) struct NodeLookup<const D: usize> {
     bases: [usize; 27],
     map: &'static [(u8, u8)],
     coordinates: [i32; D],
-    _tiles: std::marker::PhantomData<&'a ()>,
 }
 
-impl<'a, const D: usize> NodeLookup<'a, D> {
-    pub(crate) fn new(tiles: &'a Tiles<D>, tile: usize) -> Self {
+impl<const D: usize> NodeLookup<D> {
+    pub(crate) fn new(tiles: &Tiles<D>, tile: usize) -> Self {
         let mut bases = [0; 27];
         for (base, &around) in bases.iter_mut().zip(tiles.around(tile)) {
             *base = around as usize * Tiles::<D>::NODES;
@@ -250,7 +249,6 @@ impl<'a, const D: usize> NodeLookup<'a, D> {
             bases,
             map: window_map::<D>(),
             coordinates: tiles.coordinates(tile),
-            _tiles: std::marker::PhantomData,
         }
     }
 
@@ -264,7 +262,9 @@ impl<'a, const D: usize> NodeLookup<'a, D> {
     /// Position of the window's first node.
     #[inline]
     pub(crate) fn lowest_node(&self, grid: &Grid<D>) -> SVector<f64, D> {
-        let first = self.coordinates.map(|t| t * fissure_grid::TILE + fissure_grid::WINDOW_START);
+        let first = self
+            .coordinates
+            .map(|t| t * fissure_grid::TILE + fissure_grid::WINDOW_START);
         grid.node(first)
     }
 
@@ -279,9 +279,4 @@ impl<'a, const D: usize> NodeLookup<'a, D> {
         let h = grid.spacing();
         SVector::from_fn(|axis, _| lowest[axis] + h * ((entry >> (3 * axis)) & 7) as f64)
     }
-}
-
-/// A kernel failure from a row of a run.
-pub(crate) fn failure(row: usize) -> KernelFailure {
-    KernelFailure { row }
 }

@@ -39,6 +39,10 @@ impl<const D: usize> Shape<D> for Bspline2 {
     fn band(&self, spacing: f64) -> Band {
         Band::Uniform(2.0 * spacing)
     }
+
+    fn affine_inverse(&self, spacing: f64) -> Option<f64> {
+        Some(4.0 / (spacing * spacing))
+    }
 }
 
 impl<const D: usize> Shape<D> for Bspline3 {
@@ -65,6 +69,10 @@ impl<const D: usize> Shape<D> for Bspline3 {
 
     fn band(&self, spacing: f64) -> Band {
         Band::Uniform(3.0 * spacing)
+    }
+
+    fn affine_inverse(&self, spacing: f64) -> Option<f64> {
+        Some(3.0 / (spacing * spacing))
     }
 }
 

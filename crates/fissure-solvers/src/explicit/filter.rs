@@ -1,0 +1,55 @@
+//! The velocity filter of XPIC and FMPM.
+//!
+//! With `S` from nodes to particles and `S⁺` from particles to nodes (mass-weighted), the full
+//! mass matrix is `S⁺S` in units of the lumped one. Its inverse on a nodal velocity `v` is
+//! approached by `Σ_{r=1}^m (−1)^{r+1} (m over r) (S⁺S)^{r−1} v` [Hammerquist and Nairn 2017].
+
+use fissure_grid::{Shape, Stencil};
+use fissure_scene::Scene;
+use nalgebra::SVector;
+
+use super::grid_update::{NodeMotion, velocity};
+use crate::constraints::Constraints;
+use crate::to_grid::{Gift, Sums, Transfers};
+
+/// Fills `filtered` of every node from the velocity that `source` picks.
+pub(crate) fn filter<S: Shape<D>, const D: usize>(
+    transfers: &Transfers<'_, S, D>,
+    scene: &Scene<D>,
+    scratch: &mut Sums<D>,
+    nodes: &mut [NodeMotion<D>],
+    order: usize,
+    source: impl Fn(&NodeMotion<D>) -> SVector<f64, D>,
+    held: Option<&Constraints<D>>,
+) -> Result<(), (usize, usize)> {
+    let mut coefficient = order as f64;
+    let mut term: Vec<SVector<f64, D>> = nodes.iter().map(source).collect();
+    for (node, v) in nodes.iter_mut().zip(&term) {
+        node.filtered = v * coefficient;
+    }
+    for r in 2..=order {
+        transfers.to_grid(scene, scratch, |body, index, stencil, lookup| {
+            let mut v = SVector::zeros();
+            stencil.visit_values(|entry, weight| v += term[lookup.node(entry)] * weight);
+            Gift {
+                mass: body.particles().mass[index],
+                velocity: v,
+                affine: None,
+                volume_stress: None,
+                acceleration: SVector::zeros(),
+            }
+        })?;
+        coefficient *= -((order + 1 - r) as f64) / r as f64;
+        for ((node, v), sum) in nodes.iter_mut().zip(&mut term).zip(&scratch.nodes) {
+            *v = velocity(sum);
+            node.filtered += *v * coefficient;
+        }
+    }
+    if let Some(constraints) = held {
+        for held in &constraints.held {
+            let node = &mut nodes[held.node];
+            node.filtered = held.apply(&node.filtered);
+        }
+    }
+    Ok(())
+}
