@@ -18,6 +18,7 @@
 mod biot;
 mod cracking;
 mod decohesive;
+mod equilibrium;
 mod error;
 mod finite_strain;
 mod hencky;
@@ -25,6 +26,8 @@ mod increment;
 mod isotropic;
 mod material;
 mod neo_hookean;
+mod path;
+mod point;
 pub mod softening;
 #[cfg(test)]
 mod testing;
@@ -39,4 +42,6 @@ pub use increment::{External, Increment, Response, Scale};
 pub use isotropic::Isotropic;
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
+pub use path::{Axis, Component, Control, Leg, Path};
+pub use point::{Point, PointError, Sample};
 pub use softening::Softening;
