@@ -27,6 +27,7 @@ mod isotropic;
 mod material;
 mod neo_hookean;
 mod path;
+mod plane_stress;
 mod point;
 pub mod softening;
 #[cfg(test)]
@@ -43,5 +44,6 @@ pub use isotropic::Isotropic;
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
 pub use path::{Axis, Component, Control, Leg, Path};
+pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
 pub use softening::Softening;
