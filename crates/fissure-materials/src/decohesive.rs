@@ -172,12 +172,14 @@ impl<S: Softening> Point<'_, S> {
             stiffness / (self.strength * per_opening),
             state.softened,
         );
-        state.opening = state.softened / per_opening;
         state.failed = state.softened >= self.softening.critical();
         if state.failed {
             state.softened = self.softening.critical();
+            // As in every later step, to the last bit: a zero increment must not move it.
+            state.opening = uncracked / stiffness;
             return Some(0.0);
         }
+        state.opening = state.softened / per_opening;
         Some(self.strength * per_opening * self.softening.slope(state.softened))
     }
 }
@@ -374,3 +376,6 @@ impl<S: Softening> Cracking for Decohesive<S> {
         vec![state.softened, f64::from(u8::from(state.failed))]
     }
 }
+
+#[cfg(test)]
+mod tests;

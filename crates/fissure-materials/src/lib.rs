@@ -18,18 +18,32 @@
 mod biot;
 mod cracking;
 mod decohesive;
+mod equilibrium;
 mod error;
+mod finite_strain;
+mod hencky;
 mod increment;
 mod isotropic;
 mod material;
+mod neo_hookean;
+mod path;
+mod plane_stress;
+mod point;
 pub mod softening;
+#[cfg(test)]
+mod testing;
 
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
 pub use error::{MaterialError, check_parameter};
 pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
+pub use hencky::Hencky;
 pub use increment::{External, Increment, Response, Scale};
 pub use isotropic::Isotropic;
 pub use material::Material;
+pub use neo_hookean::NeoHookean;
+pub use path::{Axis, Component, Control, Leg, Path};
+pub use plane_stress::{PlaneStress, PlaneStressState};
+pub use point::{Point, PointError, Sample};
 pub use softening::Softening;

@@ -1,0 +1,328 @@
+//! Plane stress: any law with the out-of-plane stretch that leaves `σ₃₃ = 0`.
+//!
+//! The unknown is `x = ln F₃₃`, whose derivative of the residual is `dσ₃₃/dx = c₃₃₃₃ + σ₃₃` with
+//! the spatial tangent `c` (Truesdell rate). Newton's method starts from the old stretch and is
+//! kept inside the bracket that the signs of `σ₃₃` have shown; where the law softens out of plane
+//! the slope falls back on the modulus at rest. The tangent is condensed,
+//! `c_αβγδ − c_αβ33 c_33γδ / c_3333` (de Borst 1991): with `σ₃₃ = 0` the Truesdell rate adds no
+//! further term.
+
+use fissure_tensor::{Band, Matrix3, Sym, Tangent};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
+    check_parameter,
+};
+
+const NAME: &str = "plane stress";
+/// Newton steps and bisections before giving up; bisection alone needs about 60.
+const ITERATIONS: usize = 100;
+/// Mandel positions of the components that plane stress determines: zz, yz, xz.
+const OUT_OF_PLANE: [usize; 3] = [2, 3, 4];
+
+/// The law inside, in plane stress.
+///
+/// Only the in-plane components of a deformation gradient are read: its `F₃₃` is replaced by the
+/// one that leaves no stress, and `F₁₃`, `F₂₃`, `F₃₁`, `F₃₂` by zero. Stress and tangent have no
+/// out-of-plane components; the Jacobian that belongs to them holds
+/// [`out_of_plane_stretch`](Material::out_of_plane_stretch).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneStress<M>(pub M);
+
+/// History of a law in plane stress.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlaneStressState<S> {
+    /// History of the law inside.
+    pub inner: S,
+    /// Out-of-plane strain `F₃₃ − 1`.
+    pub thickening: f64,
+}
+
+/// A step of the law inside, at the stretch that leaves no out-of-plane stress.
+struct Solved<S> {
+    increment: Increment,
+    response: Response<S>,
+    thickening: f64,
+}
+
+impl<M: Material> PlaneStress<M> {
+    /// P-wave modulus of the undeformed law, Pa: sets what counts as round-off.
+    fn modulus(&self, scale: &Scale) -> f64 {
+        let speed = self
+            .0
+            .wave_speed(&Matrix3::identity(), &self.0.initial(), scale);
+        self.0.density() * speed * speed
+    }
+
+    fn solve(
+        &self,
+        increment: &Increment,
+        old: &PlaneStressState<M::State>,
+    ) -> Result<Solved<M::State>, MaterialError> {
+        let modulus = self.modulus(&increment.external.scale);
+        let mut trial = Increment {
+            f_old: with_thickness(&increment.f_old, old.thickening),
+            ..*increment
+        };
+        let (mut low, mut high) = (-1.0, f64::INFINITY);
+        let mut thickening = old.thickening;
+        let mut residual = f64::NAN;
+        for _ in 0..ITERATIONS {
+            trial.f_new = with_thickness(&increment.f_new, thickening);
+            let response = self.0.update(&trial, &old.inner)?;
+            residual = response.stress.zz();
+            let round_off = 4.0 * f64::EPSILON * (modulus + response.stress.max_abs());
+            // Accepting the old stretch at round-off keeps a zero increment from moving anything.
+            if residual.abs() <= round_off {
+                return Ok(Solved {
+                    increment: trial,
+                    response,
+                    thickening,
+                });
+            }
+            if !residual.is_finite() {
+                return Err(MaterialError::NotFinite { law: NAME });
+            }
+            if residual > 0.0 {
+                high = thickening;
+            } else {
+                low = thickening;
+            }
+            let slope = self.0.tangent(&trial, &old.inner)?.0[(2, 2)] + residual;
+            let next = next_thickening(thickening, residual, slope, modulus, low, high);
+            // No closer number: one ulp of F₃₃ is more than the bound. A jump of the stress across
+            // the bracket is not a solution.
+            let exhausted = next == thickening || residual.abs() <= 4.0 * f64::EPSILON * slope;
+            if exhausted && residual.abs() <= 1e6 * round_off {
+                return Ok(Solved {
+                    increment: trial,
+                    response,
+                    thickening,
+                });
+            }
+            if next == thickening {
+                break;
+            }
+            thickening = next;
+        }
+        Err(MaterialError::NoConvergence {
+            law: NAME,
+            iterations: ITERATIONS,
+            residual: residual.abs() / modulus,
+        })
+    }
+
+    fn response(solved: &Solved<M::State>) -> Response<PlaneStressState<M::State>> {
+        let mut stress = solved.response.stress;
+        // What is left of σ₃₃ is round-off; the out-of-plane shears are those of the plane problem.
+        for i in OUT_OF_PLANE {
+            stress.mandel[i] = 0.0;
+        }
+        Response {
+            stress,
+            state: PlaneStressState {
+                inner: solved.response.state,
+                thickening: solved.thickening,
+            },
+            stored: solved.response.stored,
+            dissipated: solved.response.dissipated,
+        }
+    }
+
+    /// Smallest ratio of the in-plane modulus at `σ₃₃ = 0` to that at `ε₃₃ = 0`, at rest; in (0, 1].
+    ///
+    /// The thickness gives way, so a material point snaps back at a narrower band than in plane
+    /// strain, by this factor: `(1 − 2ν)/(1 − ν)²` if the law is isotropic.
+    fn relief(&self, scale: &Scale) -> f64 {
+        let mut rest = Increment::to(Matrix3::identity());
+        rest.external.scale = *scale;
+        let Ok(Tangent(c)) = self.0.tangent(&rest, &self.0.initial()) else {
+            return 1.0;
+        };
+        let ratio = |i| 1.0 - c[(i, 2)] * c[(2, i)] / (c[(2, 2)] * c[(i, i)]);
+        let smallest = f64::min(ratio(0), ratio(1));
+        if smallest > 0.0 && smallest < 1.0 {
+            smallest
+        } else {
+            1.0
+        }
+    }
+}
+
+/// The in-plane part of a deformation gradient, and `F₃₃ = 1 + thickening`.
+fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
+    Matrix3::new(
+        f.m11,
+        f.m12,
+        0.0,
+        f.m21,
+        f.m22,
+        0.0,
+        0.0,
+        0.0,
+        1.0 + thickening,
+    )
+}
+
+/// Newton's step in `ln F₃₃`, at most half a unit long, or the middle of the bracket.
+fn next_thickening(
+    thickening: f64,
+    residual: f64,
+    slope: f64,
+    modulus: f64,
+    low: f64,
+    high: f64,
+) -> f64 {
+    let slope = if slope > 1e-9 * modulus {
+        slope
+    } else {
+        modulus
+    };
+    let step = (-residual / slope).clamp(-0.5, 0.5);
+    let newton = thickening + (1.0 + thickening) * step.exp_m1();
+    if newton > low && newton < high {
+        newton
+    } else {
+        0.5 * (low + high)
+    }
+}
+
+/// The in-plane response at `σ₃₃ = 0`; rows and columns out of the plane are zero.
+fn condensed(tangent: &Tangent) -> Result<Tangent, MaterialError> {
+    let c = tangent.0;
+    let mut plane = c - c.column(2) * c.row(2) / c[(2, 2)];
+    for i in OUT_OF_PLANE {
+        plane.row_mut(i).fill(0.0);
+        plane.column_mut(i).fill(0.0);
+    }
+    let plane = Tangent(plane);
+    plane
+        .is_finite()
+        .then_some(plane)
+        .ok_or(MaterialError::NotFinite { law: NAME })
+}
+
+/// The band with every width multiplied by `factor`.
+fn widened(band: &Band, factor: f64) -> Band {
+    match band {
+        Band::Uniform(width) => Band::Uniform(width * factor),
+        Band::Projected(edges) => Band::Projected(edges.map(|edge| edge * factor)),
+        Band::Section(edges) => Band::Section(edges.map(|edge| edge * factor)),
+    }
+}
+
+impl<M: Material> Material for PlaneStress<M> {
+    type State = PlaneStressState<M::State>;
+    const OBJECTIVE: bool = M::OBJECTIVE;
+    const HYPERELASTIC: bool = M::HYPERELASTIC;
+    const NAMES: &'static [&'static str] = M::NAMES;
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.0.check()?;
+        // The wave speed at rest sets the tolerance of the stretch.
+        let modulus = self.modulus(&Scale::default());
+        check_parameter(
+            NAME,
+            "modulus at rest",
+            modulus,
+            modulus > 0.0,
+            "finite and > 0",
+        )
+    }
+
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        let relief = self.relief(scale);
+        self.0
+            .check_band(&widened(band, 1.0 / relief), scale)
+            .map_err(|error| match error {
+                MaterialError::Band { law, width, limit } => MaterialError::Band {
+                    law,
+                    width: width * relief,
+                    limit: limit * relief,
+                },
+                other => other,
+            })
+    }
+
+    fn density(&self) -> f64 {
+        self.0.density()
+    }
+
+    /// That of the law inside at the stretch of the state: an upper bound, since the freedom of
+    /// the thickness only softens in-plane waves.
+    fn wave_speed(&self, f: &Matrix3<f64>, state: &Self::State, scale: &Scale) -> f64 {
+        let f = with_thickness(f, state.thickening);
+        self.0.wave_speed(&f, &state.inner, scale)
+    }
+
+    fn initial(&self) -> Self::State {
+        PlaneStressState {
+            inner: self.0.initial(),
+            thickening: 0.0,
+        }
+    }
+
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<Response<Self::State>, MaterialError> {
+        Ok(Self::response(&self.solve(increment, old)?))
+    }
+
+    fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
+        Ok(self.update_with_tangent(increment, old)?.1)
+    }
+
+    fn update_with_tangent(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
+        let solved = self.solve(increment, old)?;
+        let tangent = condensed(&self.0.tangent(&solved.increment, &old.inner)?)?;
+        Ok((Self::response(&solved), tangent))
+    }
+
+    fn values(&self, state: &Self::State, out: &mut [f64]) {
+        self.0.values(&state.inner, out);
+    }
+
+    fn out_of_plane_stretch(&self, state: &Self::State) -> Option<f64> {
+        Some(1.0 + state.thickening)
+    }
+}
+
+impl<M: Cracking> Cracking for PlaneStress<M> {
+    fn toughness(&self, scale: &Scale) -> f64 {
+        self.0.toughness(scale)
+    }
+
+    fn strength(&self, scale: &Scale) -> f64 {
+        self.0.strength(scale)
+    }
+
+    fn critical_opening(&self, scale: &Scale) -> f64 {
+        self.0.critical_opening(scale)
+    }
+
+    fn band_limit(&self, scale: &Scale) -> f64 {
+        self.0.band_limit(scale) * self.relief(scale)
+    }
+
+    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        self.0.initiation(stress, scale)
+    }
+
+    fn cracks(&self, state: &Self::State) -> Vec<Crack> {
+        self.0.cracks(&state.inner)
+    }
+
+    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
+        self.0.irreversible(&state.inner)
+    }
+}
+
+#[cfg(test)]
+mod tests;

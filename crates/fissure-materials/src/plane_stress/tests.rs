@@ -1,0 +1,178 @@
+use super::*;
+use crate::softening::Linear;
+use crate::{Axis, Decohesive, Hencky, Isotropic, NeoHookean, Normal, Path, Point, PointError};
+
+const ELASTIC: Isotropic = Isotropic {
+    density: 2400.0,
+    young: 30e9,
+    poisson: 0.2,
+};
+
+fn cohesive() -> Decohesive {
+    Decohesive {
+        elastic: ELASTIC,
+        strength: 3e6,
+        toughness: 60.0,
+        softening: Linear,
+        normal: Normal::Rankine,
+    }
+}
+
+fn in_plane(xx: f64, xy: f64, yx: f64, yy: f64) -> Matrix3<f64> {
+    Matrix3::new(1.0 + xx, xy, 0.0, yx, 1.0 + yy, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// Central differences of in-plane Kirchhoff stress with the Jacobian that holds the law's stretch.
+fn difference<M: Material>(
+    law: &M,
+    increment: &Increment,
+    old: &M::State,
+    step: f64,
+) -> Result<Tangent, MaterialError> {
+    let kirchhoff = |f: Matrix3<f64>| -> Result<(Sym, f64), MaterialError> {
+        let response = law.update(&increment.with_end(f), old)?;
+        let thickness = law.out_of_plane_stretch(&response.state).unwrap_or(1.0);
+        let jacobian = (f.m11 * f.m22 - f.m12 * f.m21) * thickness;
+        Ok((response.stress * jacobian, jacobian))
+    };
+    let (tau, jacobian) = kirchhoff(increment.f_new)?;
+    let mut tangent = Tangent::zero();
+    for column in [0, 1, 5] {
+        let mut d = Sym::ZERO;
+        d.mandel[column] = 1.0;
+        let end =
+            |sign: f64| (Matrix3::identity() + d.to_matrix() * (sign * step)) * increment.f_new;
+        let rate = (kirchhoff(end(1.0))?.0 - kirchhoff(end(-1.0))?.0) / (2.0 * step);
+        let convected = Sym::from_matrix(&(d.to_matrix() * tau.to_matrix())) * 2.0;
+        let image = (rate - convected) / jacobian;
+        tangent.0.set_column(column, &image.mandel.into());
+    }
+    Ok(tangent)
+}
+
+#[test]
+fn small_strain_moduli_are_those_of_plane_stress() -> Result<(), MaterialError> {
+    let law = PlaneStress(ELASTIC);
+    let rest = Increment::to(Matrix3::identity());
+    let c = law.tangent(&rest, &law.initial())?.0;
+    let modulus = ELASTIC.young / (1.0 - ELASTIC.poisson * ELASTIC.poisson);
+    assert!((c[(0, 0)] / modulus - 1.0).abs() < 1e-15);
+    assert!((c[(0, 1)] / (ELASTIC.poisson * modulus) - 1.0).abs() < 1e-14);
+    assert!((c[(5, 5)] / (2.0 * ELASTIC.shear_modulus()) - 1.0).abs() < 1e-15);
+    for strain in [1e-9, 1e-6, 1e-3, 0.1] {
+        let response = law.update(
+            &Increment::to(in_plane(strain, 0.0, 0.0, 0.0)),
+            &law.initial(),
+        )?;
+        let round_off = 2.0 * f64::EPSILON * ELASTIC.p_wave_modulus();
+        assert!((response.stress.xx() - modulus * strain).abs() <= round_off);
+        assert!((response.stress.yy() - ELASTIC.poisson * modulus * strain).abs() <= round_off);
+        let thinning = -ELASTIC.poisson / (1.0 - ELASTIC.poisson) * strain;
+        assert!((response.state.thickening - thinning).abs() <= 4.0 * f64::EPSILON);
+    }
+    Ok(())
+}
+
+#[test]
+fn finite_strain_stretch_and_tangent() -> Result<(), MaterialError> {
+    let rubber = PlaneStress(NeoHookean {
+        density: 1100.0,
+        young: 2e6,
+        poisson: 0.45,
+    });
+    let metal = PlaneStress(Hencky { elastic: ELASTIC });
+    for f in [
+        in_plane(0.5, 0.2, -0.1, -0.2),
+        in_plane(4.0, 0.0, 0.0, 3.0),
+        in_plane(-0.7, 0.3, 0.0, -0.6),
+    ] {
+        let increment = Increment::to(f);
+        check_step(&rubber, &increment, 1e-7)?;
+        check_step(&metal, &increment, 1e-7)?;
+        // Hencky in closed form: ln F₃₃ = −ν/(1 − ν) ln(area stretch).
+        let stretch = metal.update(&increment, &metal.initial())?.state.thickening;
+        let exact = (-0.25 * (f.m11 * f.m22 - f.m12 * f.m21).ln()).exp_m1();
+        assert!((stretch - exact).abs() < 1e-14 * (1.0 + exact));
+    }
+    Ok(())
+}
+
+/// The stretch leaves no stress, a zero increment moves nothing, the tangent fits differences.
+fn check_step<M: Material>(
+    law: &PlaneStress<M>,
+    increment: &Increment,
+    tolerance: f64,
+) -> Result<(), MaterialError> {
+    let old = law.initial();
+    let response = law.update(increment, &old)?;
+    let again = Increment {
+        f_old: increment.f_new,
+        ..*increment
+    };
+    let second = law.update(&again, &response.state)?;
+    assert_eq!(
+        (second.state, second.stress),
+        (response.state, response.stress)
+    );
+    let f = with_thickness(&increment.f_new, response.state.thickening);
+    let inner = law.0.update(&increment.with_end(f), &old.inner)?;
+    assert!(
+        inner.stress.zz().abs() < 1e-14 * (law.modulus(&Scale::default()) + inner.stress.max_abs())
+    );
+    let tangent = law.tangent(increment, &old)?;
+    let gap = (tangent - difference(law, increment, &old, 1e-6)?).max_abs();
+    // Their terms are as large as the stress, which at large strain is above the tangent.
+    let size = tangent.max_abs() + response.stress.max_abs();
+    assert!(gap <= tolerance * size, "off by {gap:e} of {size:e}");
+    Ok(())
+}
+
+#[test]
+fn a_crack_softens_and_closes() -> Result<(), PointError> {
+    let law = PlaneStress(cohesive());
+    let width = 0.01;
+    for steps in [1, 7, 1000] {
+        let path = Path::new(Band::cube(width))
+            .uniaxial(Axis::X, 2e-3, steps)
+            .back(1e-3, steps)
+            .back(8e-3, steps)
+            .back(-1e-4, steps);
+        let samples = Point::new(&law)?.drive(&path)?;
+        let last = samples.last().unwrap();
+        assert!(last.state.inner.failed);
+        assert!((last.dissipated * width / 60.0 - 1.0).abs() < 1e-10);
+        // Shut: the undamaged response.
+        assert!((last.stress.xx() / (-1e-4 * ELASTIC.young) - 1.0).abs() < 1e-3);
+        assert!(samples.iter().all(|s| s.stress.zz() == 0.0));
+        assert!(samples.iter().all(|s| s.stress.yy().abs() < 1e-3));
+    }
+    Ok(())
+}
+
+#[test]
+fn cracked_steps_have_the_right_tangent() -> Result<(), MaterialError> {
+    let law = PlaneStress(cohesive());
+    for f in [
+        in_plane(1e-3, 2e-4, 0.0, 1e-4),
+        in_plane(1e-2, 2e-4, 3e-4, -1e-4),
+    ] {
+        let mut increment = Increment::to(f);
+        increment.band = Band::cube(0.01);
+        check_step(&law, &increment, 1e-5)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn the_band_limit_is_that_of_plane_stress() {
+    let law = PlaneStress(cohesive());
+    let scale = Scale::default();
+    let nu = ELASTIC.poisson;
+    let limit = cohesive().band_limit(&scale) * (1.0 - 2.0 * nu) / ((1.0 - nu) * (1.0 - nu));
+    assert!((law.band_limit(&scale) / limit - 1.0).abs() < 1e-14);
+    assert!(law.check_band(&Band::cube(0.999 * limit), &scale).is_ok());
+    let refused = law.check_band(&Band::cube(1.001 * limit), &scale);
+    assert!(
+        matches!(refused, Err(MaterialError::Band { width, .. }) if (width / limit - 1.001).abs() < 1e-12)
+    );
+}
