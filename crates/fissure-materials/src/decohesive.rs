@@ -187,6 +187,7 @@ impl<S: Softening> Point<'_, S> {
 impl<S: Softening> Material for Decohesive<S> {
     type State = DecohesiveState;
     const NAMES: &'static [&'static str] = &["opening", "softened", "failed"];
+    const STEP_ERROR: f64 = 0.0;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
@@ -221,6 +222,10 @@ impl<S: Softening> Material for Decohesive<S> {
                 limit,
             })
         }
+    }
+
+    fn isotropic(&self) -> bool {
+        self.normal == Normal::Rankine
     }
 
     fn density(&self) -> f64 {
@@ -266,7 +271,10 @@ impl<S: Softening> Material for Decohesive<S> {
             modulus = modulus - Tangent::dyad(&direction, &direction) * (1.0 / factor);
             if step.started && self.normal == Normal::Rankine {
                 let turning = turning_normal(&point.elastic, &kinematics.strain(), &normal);
-                modulus = modulus - turning * (step.state.opening / step.state.width);
+                let crack_strain = step.state.opening / step.state.width;
+                let widening = widening_band(&increment.band, &kinematics, &normal);
+                modulus = modulus - turning * crack_strain
+                    + Tangent::dyad(&direction, &widening) * (slope * crack_strain / factor);
             }
         }
         let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus);
@@ -320,6 +328,26 @@ fn turning_normal(elastic: &Isotropic, strain: &Sym, normal: &Vector3<f64>) -> T
         }
     }
     turning
+}
+
+/// Derivative of the width of the band with the strain in the step in which a crack starts: the
+/// normal turns as in [`turning_normal`]. That the rotation changes too is left out, an effect
+/// smaller by the strain squared.
+fn widening_band(band: &Band, kinematics: &Biot, normal: &Vector3<f64>) -> Sym {
+    const ANGLE: f64 = 1e-6;
+    let strain = kinematics.strain();
+    let spectrum = strain.spectrum();
+    let width = |n: Vector3<f64>| band.width(&(kinematics.rotation * n));
+    let mut widening = Sym::ZERO;
+    for j in 1..3 {
+        let gap = spectrum.values[0] - spectrum.values[j];
+        if gap > 1e-8 * strain.max_abs() {
+            let other = spectrum.vectors[j] * ANGLE;
+            let slope = (width(normal + other) - width(normal - other)) / (2.0 * ANGLE);
+            widening += Sym::dyad_of(normal, &spectrum.vectors[j]) * (slope / gap);
+        }
+    }
+    widening
 }
 
 impl<S: Softening> Cracking for Decohesive<S> {

@@ -78,6 +78,7 @@ impl Material for Isotropic {
     type State = ();
     const OBJECTIVE: bool = false;
     const HYPERELASTIC: bool = false;
+    const STEP_ERROR: f64 = 0.0;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.check_for("isotropic elasticity")
@@ -93,6 +94,7 @@ impl Material for Isotropic {
 
     #[inline]
     fn update(&self, increment: &Increment, _old: &()) -> Result<Response<()>, MaterialError> {
+        check_deformation(increment)?;
         let strain = increment.small_strain();
         let stress = self.scaled(&increment.external.scale).stress(&strain);
         Ok(Response {
@@ -104,6 +106,7 @@ impl Material for Isotropic {
     }
 
     fn tangent(&self, increment: &Increment, _old: &()) -> Result<Tangent, MaterialError> {
+        check_deformation(increment)?;
         let elastic = self.scaled(&increment.external.scale);
         let stress = elastic.stress(&increment.small_strain());
         let stress_matrix = stress.to_matrix();
@@ -114,5 +117,16 @@ impl Material for Isotropic {
             elastic.stress(&strain_rate) + stress * d.trace()
                 - Sym::from_matrix(&(d_matrix * stress_matrix)) * 2.0
         }))
+    }
+}
+
+/// A NaN would otherwise pass through the linear law unseen.
+#[inline]
+fn check_deformation(increment: &Increment) -> Result<(), MaterialError> {
+    let determinant = increment.jacobian();
+    if determinant > 0.0 && determinant.is_finite() {
+        Ok(())
+    } else {
+        Err(MaterialError::Deformation { determinant })
     }
 }

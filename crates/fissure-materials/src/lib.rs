@@ -16,6 +16,7 @@
 //! ```
 
 mod biot;
+pub mod contract;
 mod cracking;
 mod decohesive;
 mod equilibrium;

@@ -33,6 +33,16 @@ pub trait Material: Send + Sync + 'static {
     /// it holds to first order in the strain.
     const HYPERELASTIC: bool = true;
 
+    /// Whether the answer depends on the length of the step in time. The contract checks hold a
+    /// zero increment of a rate-dependent law to nothing, since it may relax.
+    const RATE_DEPENDENT: bool = false;
+
+    /// Largest difference between the stress of one increment of up to five times the strain at
+    /// which the law leaves its linear range, straight and from rest or from a uniaxial stretch,
+    /// and that of the same increment in many, over stiffness times increment; the contract
+    /// checks hold the law to it. 0 for a law that such a division does not change.
+    const STEP_ERROR: f64 = 1.0;
+
     /// Names of what [`values`](Self::values) writes, for output and probes.
     const NAMES: &'static [&'static str] = &[];
 
@@ -50,6 +60,11 @@ pub trait Material: Send + Sync + 'static {
     /// [`MaterialError::Band`] with the width and the limit.
     fn check_band(&self, _band: &Band, _scale: &Scale) -> Result<(), MaterialError> {
         Ok(())
+    }
+
+    /// Whether the virgin law has no preferred direction in the reference configuration.
+    fn isotropic(&self) -> bool {
+        true
     }
 
     /// Reference mass density, kg/m³.

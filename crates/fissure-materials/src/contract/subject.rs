@@ -1,0 +1,227 @@
+//! The law under test with its natural scales, and paths of it.
+
+use fissure_tensor::{Band, Matrix3, Sym, Tangent};
+
+use super::{Case, Contract, Random, case::Step};
+use crate::{External, Increment, Material, MaterialError, Response, Scale};
+
+/// A law and what the generator has to know of it.
+pub(super) struct Subject<'a, M> {
+    pub law: &'a M,
+    /// Largest stress per strain of the virgin law, Pa.
+    pub stiffness: f64,
+    /// Tangent of the virgin law at rest.
+    pub modulus: Tangent,
+    /// Strain at which something happens: strength over stiffness, or the limit of linearity.
+    pub natural: f64,
+    /// Largest strain drawn for laws without a failure opening.
+    pub reach: f64,
+    /// Opening at which a crack has failed, m; 0 for laws that do not say.
+    pub opening: f64,
+    /// Widest band to draw.
+    pub width: f64,
+    /// The band asked for, if one was.
+    pub band: Option<Band>,
+    /// Sub-steps of the isoerror property.
+    pub isoerror_steps: usize,
+}
+
+impl<'a, M: Material> Subject<'a, M> {
+    /// Measures the natural scales of a law.
+    pub fn new(law: &'a M, contract: &Contract) -> Result<Self, MaterialError> {
+        law.check()?;
+        let reach = if M::OBJECTIVE { 1e-2 } else { 1e-3 };
+        let mut subject = Self {
+            law,
+            stiffness: 0.0,
+            modulus: Tangent::zero(),
+            natural: contract.strain_scale.unwrap_or(reach),
+            reach,
+            opening: 0.0,
+            width: widest_band(law),
+            band: contract.band,
+            isoerror_steps: contract.step_error_steps,
+        };
+        if let Some(band) = &contract.band {
+            law.check_band(band, &Scale::default())?;
+            subject.width = band.max_width();
+        }
+        for axis in 0..3 {
+            let stress = subject.at_strain(&uniaxial(axis, 1e-8))?.stress;
+            subject.stiffness = subject.stiffness.max(stress.max_abs() / 1e-8);
+        }
+        let rest = subject.rest();
+        subject.modulus = law.tangent(&rest, &law.initial())?;
+        if contract.strain_scale.is_none() {
+            subject.natural = subject.limit_of_linearity();
+        }
+        // A given scale may be over the default reach: draw beyond it all the same.
+        subject.reach = reach.max(2.0 * subject.natural).min(0.2);
+        Ok(subject)
+    }
+
+    /// Doubles strains along the axes and in all directions until the response is not linear.
+    fn limit_of_linearity(&self) -> f64 {
+        let directions = [uniaxial(0, 1.0), uniaxial(1, 1.0), uniaxial(2, 1.0)];
+        let directions = directions.into_iter().chain([Sym::IDENTITY]);
+        let mut smallest = self.reach;
+        for direction in directions {
+            let mut size = 1e-9;
+            while size < smallest {
+                let strain = direction * size;
+                let linear = self.at_strain(&strain).is_ok_and(|response| {
+                    let difference = (response.stress - self.modulus.apply(&strain)).max_abs();
+                    response.state == self.law.initial()
+                        && response.dissipated == 0.0
+                        && difference <= 0.1 * self.stiffness * size
+                });
+                if !linear {
+                    smallest = size;
+                }
+                size *= 2.0;
+            }
+        }
+        smallest
+    }
+
+    /// The zero increment at rest.
+    pub fn rest(&self) -> Increment {
+        self.increment(
+            Matrix3::identity(),
+            Matrix3::identity(),
+            &Band::Uniform(self.width),
+        )
+    }
+
+    /// An increment with the defaults of the battery.
+    pub fn increment(&self, f_old: Matrix3<f64>, f_new: Matrix3<f64>, band: &Band) -> Increment {
+        Increment {
+            f_old,
+            f_new,
+            dt: 1.0,
+            band: *band,
+            external: External::default(),
+        }
+    }
+
+    /// Response of the virgin law to one step to a strain.
+    pub fn at_strain(&self, strain: &Sym) -> Result<Response<M::State>, MaterialError> {
+        let end = Matrix3::identity() + strain.to_matrix();
+        let increment = self.increment(Matrix3::identity(), end, &Band::Uniform(self.width));
+        self.law.update(&increment, &self.law.initial())
+    }
+
+    /// Responses after every step of a path; the first gradient is where the virgin law starts.
+    pub fn drive(
+        &self,
+        gradients: &[Matrix3<f64>],
+        band: &Band,
+        scale: &Scale,
+    ) -> Result<Vec<Response<M::State>>, MaterialError> {
+        let mut state = self.law.initial();
+        let mut responses = Vec::with_capacity(gradients.len().saturating_sub(1));
+        for pair in gradients.windows(2) {
+            let mut increment = self.increment(pair[0], pair[1], band);
+            increment.external.scale = *scale;
+            let response = self.law.update(&increment, &state)?;
+            state = response.state;
+            responses.push(response);
+        }
+        Ok(responses)
+    }
+
+    /// The increment and the old state of the last step of a case; `None` if it has no step.
+    pub fn last_step(&self, case: &Case) -> Result<Option<(Increment, M::State)>, MaterialError> {
+        let gradients = case.gradients();
+        let [.., from, to] = gradients.as_slice() else {
+            return Ok(None);
+        };
+        let history = self.drive(
+            &gradients[..gradients.len() - 1],
+            &case.band,
+            &Scale::default(),
+        )?;
+        let state = history.last().map_or(self.law.initial(), |r| r.state);
+        Ok(Some((self.increment(*from, *to, &case.band), state)))
+    }
+
+    /// A band: the one asked for, else of any kind and down to a thousandth of the widest.
+    pub fn draw_band(&self, random: &mut Random) -> Band {
+        if let Some(band) = self.band {
+            return band;
+        }
+        // A thinner band would need openings that are large strains.
+        let thinnest = (1e-3 * self.width)
+            .max(10.0 * self.opening)
+            .min(0.99 * self.width);
+        let width = if random.chance(0.3) {
+            random.uniform(0.9, 0.99) * self.width
+        } else {
+            random.log_uniform(thinnest, 0.99 * self.width)
+        };
+        random.band(width)
+    }
+
+    /// A history of waypoints around one direction: loading, unloading, reloading and turning,
+    /// with strains between round-off and beyond failure. `special` as for
+    /// [`Random::strain_direction`].
+    pub fn draw_path(&self, random: &mut Random, special: bool) -> Case {
+        let band = self.draw_band(random);
+        let size = if random.chance(0.3) {
+            random.log_uniform(1e-12, self.reach)
+        } else if self.opening > 0.0 && self.opening.is_finite() {
+            let failure = self.natural + self.opening / band.max_width();
+            random.log_uniform(0.5 * self.natural, (1.5 * failure).min(0.2))
+        } else {
+            random.log_uniform(0.1 * self.natural, (20.0 * self.natural).min(self.reach))
+        };
+        let main = random.strain_direction(special) * size;
+        let count = random.integer(1, 6);
+        let proportional = random.chance(0.3);
+        let mut case = Case::straight([], band);
+        let mut reached = Sym::ZERO;
+        for index in 0..count {
+            let level = if index == 0 {
+                1.0
+            } else {
+                random.uniform(-0.5, 1.5)
+            };
+            let mut target = main * level;
+            if !proportional {
+                target += random.strain_direction(special) * (0.3 * size);
+            }
+            let spin = if M::OBJECTIVE && random.chance(0.5) {
+                random.turn() * random.log_uniform(1e-6, 1.0)
+            } else {
+                Default::default()
+            };
+            let strain = target - reached;
+            case.steps.push(Step { strain, spin });
+            reached = target;
+        }
+        case.turn = random.turn();
+        case.exponent = random.integer(1, 80) as i32 - 40;
+        case
+    }
+}
+
+fn uniaxial(axis: usize, strain: f64) -> Sym {
+    let mut uniaxial = Sym::ZERO;
+    uniaxial.mandel[axis] = strain;
+    uniaxial
+}
+
+/// The widest uniform band of 1 m, 1/2 m, 1/4 m, … that the law accepts.
+fn widest_band<M: Material>(law: &M) -> f64 {
+    let mut width = 1.0;
+    for _ in 0..100 {
+        if law
+            .check_band(&Band::Uniform(width), &Scale::default())
+            .is_ok()
+        {
+            break;
+        }
+        width *= 0.5;
+    }
+    width
+}
