@@ -20,6 +20,8 @@
 //! ```
 
 mod band;
+mod eigen;
+mod eigen_plane;
 mod lyapunov;
 mod polar;
 mod rotation;
