@@ -20,7 +20,13 @@
 //! ```
 
 mod band;
+mod eigen;
+mod eigen_plane;
+mod exponential;
+mod functions;
+mod invariants;
 mod lyapunov;
+mod operators;
 mod polar;
 mod rotation;
 mod spectral;
@@ -28,6 +34,7 @@ mod sym;
 mod tangent;
 
 pub use band::Band;
+pub use exponential::exponential;
 pub use lyapunov::solve_lyapunov;
 pub use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 pub use polar::{Polar, polar};

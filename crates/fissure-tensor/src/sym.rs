@@ -1,8 +1,6 @@
 //! Symmetric second-order tensors.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
-use std::iter::Sum;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
 
@@ -147,33 +145,6 @@ impl Sym {
         self.mandel.iter().all(|c| c.is_finite())
     }
 
-    /// Determinant.
-    #[inline]
-    pub fn determinant(&self) -> f64 {
-        let (yz, xz, xy) = (self.yz(), self.xz(), self.xy());
-        self.xx() * (self.yy() * self.zz() - yz * yz) - xy * (xy * self.zz() - yz * xz)
-            + xz * (xy * yz - self.yy() * xz)
-    }
-
-    /// Second invariant of the deviator, `J₂ = s:s/2`.
-    #[inline]
-    pub fn j2(&self) -> f64 {
-        let s = self.deviator();
-        0.5 * s.dot(&s)
-    }
-
-    /// Third invariant of the deviator, `J₃ = det s`.
-    #[inline]
-    pub fn j3(&self) -> f64 {
-        self.deviator().determinant()
-    }
-
-    /// Von Mises equivalent of a stress, `√(3 J₂)`.
-    #[inline]
-    pub fn von_mises(&self) -> f64 {
-        (3.0 * self.j2()).sqrt()
-    }
-
     /// `n ⊗ n`.
     #[inline]
     pub fn dyad(n: &Vector3<f64>) -> Self {
@@ -222,67 +193,11 @@ impl Sym {
     pub fn congruence(&self, m: &Matrix3<f64>) -> Self {
         Self::from_matrix(&(m * self.to_matrix() * m.transpose()))
     }
-}
 
-impl Add for Sym {
-    type Output = Self;
+    /// `Q·A·Qᵀ`: the tensor turned by the rotation `Q`. The congruence under the name it has there;
+    /// components on the axes that are the columns of `Q` are `rotated(&Q.transpose())`.
     #[inline]
-    fn add(self, o: Self) -> Self {
-        Self {
-            mandel: std::array::from_fn(|i| self.mandel[i] + o.mandel[i]),
-        }
-    }
-}
-impl Sub for Sym {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self {
-            mandel: std::array::from_fn(|i| self.mandel[i] - o.mandel[i]),
-        }
-    }
-}
-impl Neg for Sym {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self {
-            mandel: self.mandel.map(|c| -c),
-        }
-    }
-}
-impl Mul<f64> for Sym {
-    type Output = Self;
-    #[inline]
-    fn mul(self, s: f64) -> Self {
-        Self {
-            mandel: self.mandel.map(|c| c * s),
-        }
-    }
-}
-impl Div<f64> for Sym {
-    type Output = Self;
-    #[inline]
-    fn div(self, s: f64) -> Self {
-        Self {
-            mandel: self.mandel.map(|c| c / s),
-        }
-    }
-}
-impl AddAssign for Sym {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Sym {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
-impl Sum for Sym {
-    fn sum<I: Iterator<Item = Self>>(iter: I) -> Self {
-        iter.fold(Self::ZERO, Add::add)
+    pub fn rotated(&self, rotation: &Matrix3<f64>) -> Self {
+        self.congruence(rotation)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use crate::{Matrix6, Sym, Vector6};
+use crate::{Matrix3, Matrix6, Sym, Vector3, Vector6};
 
 /// A fourth-order tensor with both minor symmetries, as the 6×6 matrix between Mandel components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +12,56 @@ impl Tangent {
     /// The zero tensor.
     pub fn zero() -> Self {
         Self(Matrix6::zeros())
+    }
+
+    /// The identity on symmetric tensors.
+    pub fn identity() -> Self {
+        Self(Matrix6::identity())
+    }
+
+    /// The projection on multiples of the identity, `I⊗I/3`; `3K` times it is the bulk stiffness.
+    pub fn volumetric() -> Self {
+        Self::dyad(&Sym::IDENTITY, &Sym::IDENTITY) * (1.0 / 3.0)
+    }
+
+    /// The projection on deviators; `2G` times it is the shear stiffness.
+    pub fn deviatoric() -> Self {
+        Self::identity() - Self::volumetric()
+    }
+
+    /// The bulk modulus `K` and shear modulus `G` of the isotropic tangent nearest to this one
+    /// (Frobenius norm), Pa: `3K = C::P_vol`, `10 G = C::P_dev`.
+    pub fn bulk_and_shear(&self) -> (f64, f64) {
+        let volumetric = self.0.fixed_view::<3, 3>(0, 0).sum() / 3.0;
+        (volumetric / 3.0, (self.0.trace() - volumetric) / 10.0)
+    }
+
+    /// The tangent that maps `A` to `M·A·Mᵀ`; orthogonal if `M` is.
+    pub fn of_congruence(m: &Matrix3<f64>) -> Self {
+        Self::from_columns(|basis| basis.congruence(m))
+    }
+
+    /// The double contraction `a:b` of two tangents: first `b`, then `a`.
+    pub fn double_contraction(a: &Self, b: &Self) -> Self {
+        Self(a.0 * b.0)
+    }
+
+    /// The tangent of the turned material, `Q·(C:(Qᵀ·A·Q))·Qᵀ` for every `A`, with `Q` a rotation.
+    pub fn rotated(&self, rotation: &Matrix3<f64>) -> Self {
+        let turn = Self::of_congruence(rotation).0;
+        Self(turn * self.0 * turn.transpose())
+    }
+
+    /// The acoustic tensor `Q_ik = n_j C_ijkl n_l` of the direction `normal` (unit, no unit of its
+    /// own, so the result has that of `C`). Not symmetric unless `C` has the major symmetry;
+    /// singular where a jump of the strain across a plane of that normal is possible.
+    pub fn acoustic_tensor(&self, normal: &Vector3<f64>) -> Matrix3<f64> {
+        let column = |axis: &Vector3<f64>| self.apply(&Sym::dyad_of(axis, normal)).traction(normal);
+        Matrix3::from_columns(&[
+            column(&Vector3::x()),
+            column(&Vector3::y()),
+            column(&Vector3::z()),
+        ])
     }
 
     /// Isotropic elasticity with Lamé's constants, Pa.
