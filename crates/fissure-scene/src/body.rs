@@ -110,8 +110,14 @@ impl<const D: usize> Body<D> {
         Ok(())
     }
 
-    /// Velocities of the particles and their trial motion: for solvers.
+    /// Its particles, for solvers.
     pub fn particles_mut(&mut self) -> &mut Particles<D> {
+        &mut self.particles
+    }
+
+    /// The particles with the trial motion sized to fit: for solvers.
+    pub fn particles_with_trial(&mut self) -> &mut Particles<D> {
+        self.particles.make_trial();
         &mut self.particles
     }
 

@@ -27,7 +27,6 @@ mod kinematics;
 mod law;
 mod ledger;
 mod persist;
-mod plane_law;
 mod scene;
 mod solver;
 mod sweep;

@@ -1,6 +1,6 @@
 //! A scene: bodies, what holds and loads them, and time.
 
-use fissure_materials::{Material, Scale};
+use fissure_materials::{Material, PlaneStress, Scale};
 use fissure_particles::{ParticleId, Particles, Region, Seeding, Seeds};
 use nalgebra::SVector;
 
@@ -10,7 +10,6 @@ use crate::error::SceneError;
 use crate::kinematics::{Kinematics, Plane};
 use crate::law::{SweepLaw, TypedLaw};
 use crate::ledger::{EnergyTotals, Report};
-use crate::plane_law::plane_stress;
 
 /// Acceleration of a body force as a function of position and time, m/s².
 pub(crate) type BodyForce<const D: usize> =
@@ -120,7 +119,7 @@ impl<const D: usize> Scene<D> {
                 })?;
         }
         let mut law: Box<dyn SweepLaw<D>> = match self.kinematics {
-            Kinematics::PlaneStress { .. } => plane_stress(law),
+            Kinematics::PlaneStress { .. } => Box::new(TypedLaw::new(PlaneStress(law))),
             _ => Box::new(TypedLaw::new(law)),
         };
         law.grow(particles.len());

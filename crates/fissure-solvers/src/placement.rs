@@ -4,6 +4,7 @@ use fissure_grid::{Grid, Tiles, tile_of};
 use fissure_particles::sort_permutation;
 use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
+use rayon::prelude::*;
 
 /// Marks a tile without particles in [`Placement::slots`].
 pub(crate) const EMPTY: u32 = u32::MAX;
@@ -27,6 +28,8 @@ pub struct Placement<const D: usize> {
     /// Present indices of the particles that each condition selects.
     selected: Vec<Vec<u32>>,
     edits: Option<u64>,
+    /// Whether a particle has left the tile of its run.
+    moved: bool,
     keys: Vec<u64>,
     order: Vec<u32>,
     homes: Vec<[i32; D]>,
@@ -42,6 +45,7 @@ impl<const D: usize> Default for Placement<D> {
             offsets: Vec::new(),
             selected: Vec::new(),
             edits: None,
+            moved: false,
             keys: Vec::new(),
             order: Vec::new(),
             homes: Vec::new(),
@@ -50,14 +54,27 @@ impl<const D: usize> Default for Placement<D> {
 }
 
 impl<const D: usize> Placement<D> {
+    /// Whether every particle is in the tile of its run and the scene is the one last seen.
+    pub fn is_current(&self, scene: &Scene<D>) -> bool {
+        !self.moved && !self.is_edited(scene)
+    }
+
     /// Whether the scene was changed by its user since the last [`update`](Self::update).
-    pub fn is_stale(&self, scene: &Scene<D>) -> bool {
+    pub fn is_edited(&self, scene: &Scene<D>) -> bool {
         self.edits != Some(scene.edits())
     }
 
-    /// Forgets what it knows, so that the next step sorts.
-    pub fn invalidate(&mut self) {
-        self.edits = None;
+    /// Notes whether a particle has left the tile of its run, after a step.
+    pub(crate) fn note_moves(&mut self, grid: &Grid<D>, scene: &Scene<D>) {
+        let tiles = &self.tiles;
+        self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {
+            let position = body.motion().position;
+            runs.par_iter().with_min_len(16).any(|run| {
+                let home = Some(tiles.coordinates(run.tile as usize));
+                let particles = &position[run.start as usize..run.end as usize];
+                particles.iter().any(|x| grid.cell(x).map(tile_of) != home)
+            })
+        });
     }
 
     /// Sorts every body's particles by tile and cuts them into runs.
@@ -101,6 +118,7 @@ impl<const D: usize> Placement<D> {
         self.index_members();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
+        self.moved = false;
         Ok(())
     }
 

@@ -7,6 +7,7 @@
 mod filter;
 mod grid_update;
 mod kernels;
+mod phases;
 mod settings;
 mod step;
 

@@ -2,6 +2,8 @@
 
 use fissure_scene::SolveError;
 
+use crate::band::BandSource;
+
 /// When the stress is updated, relative to the nodal forces of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StressUpdate {
@@ -58,17 +60,6 @@ pub struct ExplicitSettings {
     /// Nodes below this share of the mean particle mass feel no force: they are the corners that
     /// hold next to nothing. In [0, 1e-2].
     pub mass_cutoff: f64,
-}
-
-/// Where the width of a crack comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BandSource {
-    /// The discretisation: the cells a crack crosses. The input fracture energy is then physical.
-    #[default]
-    Discretisation,
-    /// Volume over central section of the particle, to reproduce Nairn 2017; dissipates twice the
-    /// input with two particles across a cell.
-    Particle,
 }
 
 impl Default for ExplicitSettings {
