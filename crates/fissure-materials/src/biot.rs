@@ -45,6 +45,16 @@ impl Biot {
         self.stretch - Sym::IDENTITY
     }
 
+    /// Bound on the largest principal stretch, at least 1; attained where the others coincide.
+    ///
+    /// With `C = FᵀF`, `λ² ≤ tr C/3 + 2 √(J₂(C)/3)`: no spectrum needed. It turns a wave speed of the
+    /// reference configuration into a bound of that of the current one.
+    pub fn longest_stretch(f: &Matrix3<f64>) -> f64 {
+        let squared = Sym::from_matrix(&(f.transpose() * f));
+        let largest = squared.mean() + 2.0 * (squared.j2() / 3.0).sqrt();
+        largest.sqrt().max(1.0)
+    }
+
     /// Cauchy stress from the stress `T` conjugate to the strain.
     pub fn cauchy(&self, biot_stress: &Sym) -> Sym {
         let second_piola = solve_lyapunov(&self.stretch, &(*biot_stress * 2.0));

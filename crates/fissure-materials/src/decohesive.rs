@@ -232,8 +232,10 @@ impl<S: Softening> Material for Decohesive<S> {
         self.elastic.density
     }
 
-    fn wave_speed(&self, _f: &Matrix3<f64>, _state: &DecohesiveState, scale: &Scale) -> f64 {
-        self.elastic.scaled(scale).p_wave_speed()
+    /// That of the sound material times the longest stretch: what a law on the Biot strain
+    /// reaches in the current configuration, along or across an open crack.
+    fn wave_speed(&self, f: &Matrix3<f64>, _state: &DecohesiveState, scale: &Scale) -> f64 {
+        self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
     }
 
     fn update(

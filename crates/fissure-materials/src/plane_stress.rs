@@ -1,23 +1,23 @@
 //! Plane stress: any law with the out-of-plane stretch that leaves `σ₃₃ = 0`.
 //!
-//! The unknown is `x = ln F₃₃`, whose derivative of the residual is `dσ₃₃/dx = c₃₃₃₃ + σ₃₃` with
-//! the spatial tangent `c` (Truesdell rate). Newton's method starts from the old stretch and is
-//! kept inside the bracket that the signs of `σ₃₃` have shown; where the law softens out of plane
-//! the slope falls back on the modulus at rest. The tangent is condensed,
+//! `F₃₃` is found anew in every step (`plane_stress/balance.rs`). The tangent is condensed,
 //! `c_αβγδ − c_αβ33 c_33γδ / c_3333` (de Borst 1991): with `σ₃₃ = 0` the Truesdell rate adds no
 //! further term.
+
+mod balance;
+#[cfg(test)]
+mod tests;
 
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Deserialize, Serialize};
 
+use self::balance::{Solved, with_thickness};
 use crate::{
     Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     check_parameter,
 };
 
 const NAME: &str = "plane stress";
-/// Newton steps and bisections before giving up; bisection alone needs about 60.
-const ITERATIONS: usize = 100;
 /// Mandel positions of the components that plane stress determines: zz, yz, xz.
 const OUT_OF_PLANE: [usize; 3] = [2, 3, 4];
 
@@ -39,80 +39,7 @@ pub struct PlaneStressState<S> {
     pub thickening: f64,
 }
 
-/// A step of the law inside, at the stretch that leaves no out-of-plane stress.
-struct Solved<S> {
-    increment: Increment,
-    response: Response<S>,
-    thickening: f64,
-}
-
 impl<M: Material> PlaneStress<M> {
-    /// P-wave modulus of the undeformed law, Pa: sets what counts as round-off.
-    fn modulus(&self, scale: &Scale) -> f64 {
-        let speed = self
-            .0
-            .wave_speed(&Matrix3::identity(), &self.0.initial(), scale);
-        self.0.density() * speed * speed
-    }
-
-    fn solve(
-        &self,
-        increment: &Increment,
-        old: &PlaneStressState<M::State>,
-    ) -> Result<Solved<M::State>, MaterialError> {
-        let modulus = self.modulus(&increment.external.scale);
-        let mut trial = Increment {
-            f_old: with_thickness(&increment.f_old, old.thickening),
-            ..*increment
-        };
-        let (mut low, mut high) = (-1.0, f64::INFINITY);
-        let mut thickening = old.thickening;
-        let mut residual = f64::NAN;
-        for _ in 0..ITERATIONS {
-            trial.f_new = with_thickness(&increment.f_new, thickening);
-            let response = self.0.update(&trial, &old.inner)?;
-            residual = response.stress.zz();
-            let round_off = 4.0 * f64::EPSILON * (modulus + response.stress.max_abs());
-            // Accepting the old stretch at round-off keeps a zero increment from moving anything.
-            if residual.abs() <= round_off {
-                return Ok(Solved {
-                    increment: trial,
-                    response,
-                    thickening,
-                });
-            }
-            if !residual.is_finite() {
-                return Err(MaterialError::NotFinite { law: NAME });
-            }
-            if residual > 0.0 {
-                high = thickening;
-            } else {
-                low = thickening;
-            }
-            let slope = self.0.tangent(&trial, &old.inner)?.0[(2, 2)] + residual;
-            let next = next_thickening(thickening, residual, slope, modulus, low, high);
-            // No closer number: one ulp of F₃₃ is more than the bound. A jump of the stress across
-            // the bracket is not a solution.
-            let exhausted = next == thickening || residual.abs() <= 4.0 * f64::EPSILON * slope;
-            if exhausted && residual.abs() <= 1e6 * round_off {
-                return Ok(Solved {
-                    increment: trial,
-                    response,
-                    thickening,
-                });
-            }
-            if next == thickening {
-                break;
-            }
-            thickening = next;
-        }
-        Err(MaterialError::NoConvergence {
-            law: NAME,
-            iterations: ITERATIONS,
-            residual: residual.abs() / modulus,
-        })
-    }
-
     fn response(solved: &Solved<M::State>) -> Response<PlaneStressState<M::State>> {
         let mut stress = solved.response.stress;
         // What is left of σ₃₃ is round-off; the out-of-plane shears are those of the plane problem.
@@ -147,44 +74,6 @@ impl<M: Material> PlaneStress<M> {
         } else {
             1.0
         }
-    }
-}
-
-/// The in-plane part of a deformation gradient, and `F₃₃ = 1 + thickening`.
-fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
-    Matrix3::new(
-        f.m11,
-        f.m12,
-        0.0,
-        f.m21,
-        f.m22,
-        0.0,
-        0.0,
-        0.0,
-        1.0 + thickening,
-    )
-}
-
-/// Newton's step in `ln F₃₃`, at most half a unit long, or the middle of the bracket.
-fn next_thickening(
-    thickening: f64,
-    residual: f64,
-    slope: f64,
-    modulus: f64,
-    low: f64,
-    high: f64,
-) -> f64 {
-    let slope = if slope > 1e-9 * modulus {
-        slope
-    } else {
-        modulus
-    };
-    let step = (-residual / slope).clamp(-0.5, 0.5);
-    let newton = thickening + (1.0 + thickening) * step.exp_m1();
-    if newton > low && newton < high {
-        newton
-    } else {
-        0.5 * (low + high)
     }
 }
 
@@ -323,6 +212,3 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
         self.0.irreversible(&state.inner)
     }
 }
-
-#[cfg(test)]
-mod tests;

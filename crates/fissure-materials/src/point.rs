@@ -139,7 +139,8 @@ impl<'a, M: Material> Point<'a, M> {
     /// Follows a path from where the point is; one sample per step.
     ///
     /// A law in plane stress determines its out-of-plane components itself: the path's control of
-    /// zz, yz and xz is not read, and the strain zz is what the law found.
+    /// zz, yz and xz is not read, the strain zz is what the law found, and only a spin about z keeps
+    /// the plane.
     ///
     /// # Errors
     /// [`PointError`]. The point then stays at the last step it could take, see

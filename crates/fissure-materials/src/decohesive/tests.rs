@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::assert_tangent;
+use crate::testing::{assert_tangent, assert_wave_speed};
 use crate::{Control, Leg, Path, Point as MaterialPoint, PointError};
 use fissure_tensor::rotation;
 
@@ -207,5 +207,19 @@ fn rotations_on_top_change_nothing() -> Result<(), PointError> {
         assert!((a.dissipated - b.dissipated).abs() < 1e-9 * LAW.toughness / WIDTH);
         assert!((a.work - b.work).abs() < 1e-9 * LAW.toughness / WIDTH);
     }
+    Ok(())
+}
+
+#[test]
+fn wave_speed_bounds_the_acoustic_tensor_of_an_open_crack() -> Result<(), MaterialError> {
+    let state = through(&[along_x(2.0 * strain_at(2.0))])?.state;
+    assert!(state.failed);
+    for (stretch, shear) in [(1.0, 0.0), (2.0, 0.0), (3.0, 0.5), (1.3, 1.0), (0.7, 0.5)] {
+        let mut f = along_x(stretch - 1.0);
+        f.m12 = shear;
+        assert_wave_speed(&LAW, &f, &state, f64::INFINITY)?;
+    }
+    let rest = LAW.wave_speed(&Matrix3::identity(), &state, &Scale::default());
+    assert!((rest / LAW.elastic.p_wave_speed() - 1.0).abs() < 1e-15);
     Ok(())
 }

@@ -176,3 +176,30 @@ fn the_band_limit_is_that_of_plane_stress() {
         matches!(refused, Err(MaterialError::Band { width, .. }) if (width / limit - 1.001).abs() < 1e-12)
     );
 }
+
+#[test]
+fn a_large_reversal_cracks_in_the_plane() -> Result<(), MaterialError> {
+    let law = PlaneStress(cohesive());
+    // Swollen by compression, then pulled: at the old stretch the thickness would crack.
+    let (pressed, pulled) = (
+        in_plane(-5e-3, 0.0, 0.0, -5e-3),
+        in_plane(3e-4, 0.0, 0.0, 1e-4),
+    );
+    let mut increment = Increment::to(pressed);
+    increment.band = Band::cube(0.5 * law.band_limit(&Scale::default()));
+    let old = law.update(&increment, &law.initial())?.state;
+    let step = Increment {
+        f_old: pressed,
+        f_new: pulled,
+        ..increment
+    };
+    let state = law.update(&step, &old)?.state;
+    assert_eq!(state.inner.normal, [1.0, 0.0, 0.0]);
+    assert!(state.inner.opening > 0.0 && state.thickening < 0.0);
+    // A path without the detour ends at the same point.
+    let direct = law
+        .update(&increment.with_end(pulled), &law.initial())?
+        .state;
+    assert!((direct.thickening - state.thickening).abs() < 1e-15);
+    Ok(())
+}
