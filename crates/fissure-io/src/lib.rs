@@ -1,1 +1,7 @@
 //! Files a simulation leaves: ParaView series, tables, plots, checkpoints, progress.
+
+mod file;
+
+pub mod checkpoint;
+
+pub use file::FileError;
