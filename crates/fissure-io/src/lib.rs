@@ -3,5 +3,6 @@
 mod file;
 
 pub mod checkpoint;
+pub mod vtk;
 
 pub use file::FileError;
