@@ -3,6 +3,9 @@
 mod file;
 
 pub mod checkpoint;
+#[cfg(feature = "progress")]
+pub mod progress;
+pub mod table;
 pub mod vtk;
 
 pub use file::FileError;

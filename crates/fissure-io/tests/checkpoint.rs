@@ -1,4 +1,9 @@
 //! A checkpoint is read back bit for bit or refused with the name of what is wrong.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests are tests"
+)]
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,9 @@
 //! Point clouds read back by a small reader of VTK's appended format, written from its description alone.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests are tests"
+)]
 
 use std::collections::HashMap;
 use std::fs;
