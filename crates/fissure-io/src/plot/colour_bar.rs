@@ -4,9 +4,9 @@ use kuva::render::color::Color;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 use kuva::render::render_utils::generate_ticks;
 
-use super::axis::{Scale, decimal};
 use super::figure::{LABEL_SIZE, TICK_SIZE};
 use super::palette::ColourMap;
+use super::scale::{Scale, decimal};
 
 /// Room the bar needs beside the frame, px: gap, bar, numbers, label.
 pub(super) const ROOM: f64 = 128.0;

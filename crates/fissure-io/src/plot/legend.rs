@@ -3,8 +3,9 @@
 use kuva::render::color::Color;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::curve::{Frame, Pen, Pixel};
 use super::figure::LEGEND_SIZE;
+use super::pen::Pen;
+use super::stroke::{Frame, Pixel};
 
 /// Width of a letter, px, on the safe side.
 const LETTER: f64 = 0.6 * LEGEND_SIZE as f64;

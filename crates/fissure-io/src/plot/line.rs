@@ -6,10 +6,12 @@ use std::path::Path;
 use kuva::prelude::Layout;
 use kuva::render::layout::ComputedLayout;
 
-use super::axis::{Axis, Scale};
-use super::curve::{Frame, Pen, Pixel};
+use super::axis::Axis;
 use super::figure::{self, Format};
 use super::legend::Legend;
+use super::pen::Pen;
+use super::scale::Scale;
+use super::stroke::{Frame, Pixel};
 use super::{PlotError, palette};
 
 /// How a series is drawn.

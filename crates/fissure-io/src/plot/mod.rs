@@ -6,12 +6,15 @@
 
 mod axis;
 mod colour_bar;
-mod curve;
 mod figure;
 mod legend;
 mod line;
 mod palette;
+mod pen;
+mod scale;
 mod scatter;
+mod stroke;
+mod view;
 
 use std::path::PathBuf;
 
