@@ -37,7 +37,8 @@ impl Band {
             Self::Uniform(width) => *width,
             // Cauchy-Schwarz, attained by the normal parallel to the edge vector.
             Self::Projected(e) => (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]).sqrt(),
-            // The smallest central section of a box is the one across its longest edge.
+            // The smallest central section of a box is the one across its longest edge: by Vaaler's
+            // theorem (1979) `V/A ≤ √(Σ edge_i² n_i²)`, which the longest edge bounds and attains.
             Self::Section(e) => e[0].max(e[1]).max(e[2]),
         }
     }

@@ -11,7 +11,7 @@
 
 use crate::{Spectrum, Sym, Vector3};
 
-/// Least-squares-like (Chebyshev node) fit of `2 cos(acos(h)/3)` on `0 ≤ h ≤ 1`, within 1.1e-5.
+/// Interpolation at Chebyshev nodes of `2 cos(acos(h)/3)` on `0 ≤ h ≤ 1`, within 1.1e-5.
 const ROOT_FIT: [f64; 5] = [
     1.732_060_864_045_381_8,
     0.332_823_443_575_192_1,

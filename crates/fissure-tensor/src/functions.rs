@@ -1,6 +1,7 @@
 //! Isotropic functions of symmetric tensors: exponential, logarithm, square root, inverse, parts.
 
-use crate::{Matrix3, Sym};
+use crate::Sym;
+use crate::eigen::power_of_two;
 
 /// Distance from the identity below which a logarithm is that of the difference.
 const NEAR_IDENTITY: f64 = 0.5;
@@ -50,21 +51,18 @@ impl Sym {
             .then(|| spectrum.map(|value| value.max(0.0).sqrt()))
     }
 
-    /// Inverse, or `None` if the determinant is zero or the result is not finite.
+    /// Inverse, or `None` if elimination meets a zero pivot, or tensor or result is not finite.
     ///
-    /// The error is of the order of the condition number times round-off, at any magnitude.
+    /// By elimination with pivoting: the error is of the order of round-off times the condition
+    /// number, at any magnitude, where cofactors would lose up to its square.
     pub fn inverse(&self) -> Option<Self> {
         // A power of two brings the largest component into [1, 2), so that no product is lost.
-        let scale = crate::eigen::power_of_two(self.max_abs());
-        let a = *self * scale;
-        let determinant = a.determinant();
-        if determinant == 0.0 || !determinant.is_finite() {
+        let scale = power_of_two(self.max_abs());
+        if !self.is_finite() {
             return None;
         }
-        let first = (a.adjugate() / determinant).to_matrix();
-        // Cofactors lose more than the condition demands; one Newton step gives it back.
-        let residual = Matrix3::identity() - a.to_matrix() * first;
-        let inverse = Self::from_matrix(&(first + first * residual)) * scale;
+        let inverse = (*self * scale).to_matrix().lu().try_inverse()?;
+        let inverse = Self::from_matrix(&inverse) * scale;
         inverse.is_finite().then_some(inverse)
     }
 

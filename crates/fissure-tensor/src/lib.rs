@@ -8,6 +8,8 @@
 //!   component (`new`, `xy`, …) take and give *tensor* components: no √2, no engineering shear.
 //! - A fourth-order tensor with both minor symmetries is a [`Tangent`]: the 6×6 matrix that maps
 //!   Mandel components to Mandel components.
+//! - Eigenvalues descend, eigenvectors are right-handed; the Lode angle runs from 0 in uniaxial
+//!   tension to π/3 in uniaxial compression.
 //! - The deformation gradient `F` maps reference to current line elements; the polar decomposition
 //!   is `F = R·U` with `U` symmetric positive definite.
 //!

@@ -46,7 +46,8 @@ pub fn polar(f: &Matrix3<f64>) -> Option<Polar> {
 
 /// In the plane `R` turns `(F11 + F22, F21 - F12)` onto the first axis.
 fn plane_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    if !(f.m11 * f.m22 - f.m12 * f.m21 > 0.0) {
+    let determinant = f.m11 * f.m22 - f.m12 * f.m21;
+    if !determinant.is_finite() || determinant <= 0.0 {
         return None;
     }
     let (x, y) = (f.m11 + f.m22, f.m21 - f.m12);
@@ -61,7 +62,7 @@ fn newton_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     for _ in 0..MAXIMAL_STEPS {
         let cofactors = cofactors(&x);
         let determinant = x.m11 * cofactors.m11 + x.m21 * cofactors.m21 + x.m31 * cofactors.m31;
-        if !(determinant > 0.0 && determinant.is_finite()) {
+        if !determinant.is_finite() || determinant <= 0.0 {
             return None;
         }
         let (gamma, reciprocal) = scaling(&x, &cofactors, determinant);

@@ -15,17 +15,25 @@ pub fn rotation(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
 }
 
 /// The smallest rotation that takes the unit vector `from` to the unit vector `to`.
+///
+/// Opposite vectors leave the axis open; a fixed one across `from` is taken.
 pub fn rotation_between(from: &Vector3<f64>, to: &Vector3<f64>) -> Matrix3<f64> {
     let axis = from.cross(to);
     let cosine = from.dot(to);
-    if axis.norm() == 0.0 && cosine < 0.0 {
-        // Opposite vectors: half a turn about any perpendicular axis; the choice is fixed.
+    let angle = axis.norm().atan2(cosine);
+    if cosine > -0.5 {
+        return rotation(&axis, angle);
+    }
+    // Of nearly opposite vectors the cross product is small and, by round-off, not across `from`,
+    // which half a turn would double: take that part out.
+    let across = |axis: Vector3<f64>| axis - from * axis.dot(from);
+    let axis = axis.try_normalize(f64::EPSILON).unwrap_or_else(|| {
         let other = if from.x.abs() < 0.9 {
             Vector3::x()
         } else {
             Vector3::y()
         };
-        return rotation(&from.cross(&other), std::f64::consts::PI);
-    }
-    rotation(&axis, axis.norm().atan2(cosine))
+        from.cross(&other)
+    });
+    rotation(&across(across(axis)), angle)
 }

@@ -31,7 +31,8 @@ impl Sym {
     /// Residuals `|A·n - λn|`, the orthonormality of the vectors and the eigenvalues are within four
     /// units of round-off (of the Frobenius norm), whatever the gaps between eigenvalues, at every
     /// magnitude. Scaling the tensor by a power of two scales the eigenvalues by it exactly and
-    /// leaves the vectors as they are. NaN or infinite components give NaN eigenvalues.
+    /// leaves the vectors as they are. A NaN or infinite component makes
+    /// eigenvalues NaN or infinite: all of them but for `zz` beside a bad in-plane block.
     ///
     /// Any orthonormal set of the eigenspace solves the problem where eigenvalues coincide. What is
     /// returned then depends on the components only, never on chance: a multiple of the identity

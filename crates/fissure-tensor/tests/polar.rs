@@ -76,7 +76,7 @@ proptest! {
     fn plane_gradients(c in prop::array::uniform4(-1.0..1.0), out in 0.1..2.0) {
         let mut f = Matrix3::new(c[0], c[1], 0.0, c[2], c[3], 0.0, 0.0, 0.0, out);
         if f.determinant() < 0.0 {
-            f = f * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
+            f *= Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
         }
         prop_assume!(f.determinant() > 1e-6);
         let [orthogonality, product, symmetry] = defects(&f);

@@ -2,10 +2,13 @@
 
 #[path = "support/jacobi.rs"]
 mod jacobi;
+#[path = "support/random.rs"]
+mod random;
 
 use fissure_tensor::{Matrix3, Spectrum, Sym, Vector3, rotation};
 use jacobi::jacobi;
 use proptest::prelude::*;
+use random::turn;
 
 const EPS: f64 = f64::EPSILON;
 
@@ -58,11 +61,6 @@ fn tensor() -> impl Strategy<Value = Sym> {
         .prop_filter("non-zero", |a| a.max_abs() > 0.0)
 }
 
-fn turn() -> impl Strategy<Value = Matrix3<f64>> {
-    (prop::array::uniform3(-1.0..1.0), -3.2..3.2)
-        .prop_map(|(n, angle)| rotation(&Vector3::from(n), angle))
-}
-
 /// Principal values at a gap of `10^-k` and less.
 fn near_equal() -> impl Strategy<Value = [f64; 3]> {
     (
@@ -86,7 +84,7 @@ fn near_equal() -> impl Strategy<Value = [f64; 3]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(random::cases(20_000))]
 
     #[test]
     fn any_tensor(a in tensor()) {
@@ -226,13 +224,7 @@ fn improper_components_give_nan_and_return() {
 /// over many tensors of every kind, printed with `--nocapture`.
 #[test]
 fn worst_defects_over_many_tensors() {
-    let mut state = 1_u64;
-    let mut next = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut next = random::sequence(1);
     let mut worst = [[0.0_f64; 3]; 3];
     for i in 0..600_000 {
         let kind = i % 3;
