@@ -10,8 +10,10 @@ mod constraints;
 mod explicit;
 mod loads;
 mod placement;
+mod quasi_static;
 mod to_grid;
 
 pub use band::BandSource;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};
 pub use placement::Placement;
+pub use quasi_static::{QuasiStatic, QuasiStaticSettings};

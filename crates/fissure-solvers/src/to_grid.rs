@@ -53,8 +53,8 @@ pub(crate) struct Gift<const D: usize> {
     pub velocity: SVector<f64, D>,
     /// Velocity gradient of an affine transfer, 1/s.
     pub affine: Option<SMatrix<f64, D, D>>,
-    /// Current volume times Cauchy stress, J.
-    pub volume_stress: Option<Sym>,
+    /// What its stress does to the nodes.
+    pub stress: Option<StressForce<D>>,
     /// Acceleration by the body force, m/s².
     pub acceleration: SVector<f64, D>,
 }
@@ -123,7 +123,6 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         let tile = self.placement.tiles.occupied()[slot] as usize;
         let coordinates = self.placement.tiles.coordinates(tile);
         let lookup = NodeLookup::new(&self.placement.tiles, tile);
-        let axisymmetric = self.kinematics == Kinematics::Axisymmetric;
         for (body_index, run) in self.placement.members(slot) {
             let body = &scene.bodies()[body_index];
             let particles: &Particles<D> = body.particles();
@@ -137,11 +136,6 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
                 let external = gift.acceleration * gift.mass;
                 let lowest = lookup.lowest_node(self.grid);
                 let affine = gift.affine.map(|a| a * gift.mass);
-                let force = gift.volume_stress.map(|s| InternalForce::new(&s));
-                let hoop = match (axisymmetric, gift.volume_stress) {
-                    (true, Some(stress)) => stress.zz() / x[0],
-                    _ => 0.0,
-                };
                 stencil.visit(|entry, weight, gradient| {
                     let node = &mut window[entry];
                     node.mass += weight * gift.mass;
@@ -150,9 +144,9 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
                         let arm = lookup.node_position(self.grid, lowest, entry) - x;
                         node.momentum += affine * arm * weight;
                     }
-                    if let Some(force) = &force {
-                        node.internal_force -= force.on(&gradient);
-                        node.internal_force[0] -= hoop * weight;
+                    if let Some(stress) = &gift.stress {
+                        node.internal_force -= stress.on_gradient * gradient;
+                        node.internal_force[0] -= stress.on_weight * weight;
                     }
                     node.external_force += external * weight;
                 });
@@ -216,19 +210,33 @@ pub struct Sums<const D: usize> {
     exchange: Option<Vec<Vec<(u16, u8)>>>,
 }
 
-/// `V σ·∇N` without building a 3×3 matrix per node.
-struct InternalForce<const D: usize>(SMatrix<f64, D, D>);
+/// The internal force of a particle's stress on a node of weight `N`: `−(on_gradient·∇N +
+/// on_weight N e_r)`, J.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StressForce<const D: usize> {
+    /// `V σ` in the scene's dimensions.
+    pub on_gradient: SMatrix<f64, D, D>,
+    /// `V σ_θθ / r` of an axisymmetric scene, else 0.
+    pub on_weight: f64,
+}
 
-impl<const D: usize> InternalForce<D> {
+impl<const D: usize> StressForce<D> {
+    /// From the Cauchy stress and the current volume of a particle at `x`.
     #[inline]
-    fn new(volume_stress: &Sym) -> Self {
-        let full = volume_stress.to_matrix();
-        Self(SMatrix::from_fn(|i, j| full[(i, j)]))
-    }
-
-    #[inline]
-    fn on(&self, gradient: &SVector<f64, D>) -> SVector<f64, D> {
-        self.0 * gradient
+    pub(crate) fn new(
+        kinematics: Kinematics,
+        stress: &Sym,
+        volume: f64,
+        x: &SVector<f64, D>,
+    ) -> Self {
+        let full = stress.to_matrix();
+        Self {
+            on_gradient: SMatrix::from_fn(|i, j| volume * full[(i, j)]),
+            on_weight: match kinematics {
+                Kinematics::Axisymmetric => volume * stress.zz() / x[0],
+                _ => 0.0,
+            },
+        }
     }
 }
 

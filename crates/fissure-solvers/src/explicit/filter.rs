@@ -35,7 +35,7 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
                 mass: body.particles().mass[index],
                 velocity: v,
                 affine: None,
-                volume_stress: None,
+                stress: None,
                 acceleration: SVector::zeros(),
             }
         })?;

@@ -13,7 +13,7 @@ use super::kernels::StepKernel;
 use super::settings::{ExplicitSettings, Transfer};
 use crate::constraints::Constraints;
 use crate::loads::add_loads;
-use crate::to_grid::{Gift, Sums, Transfers};
+use crate::to_grid::{Gift, StressForce, Sums, Transfers};
 
 /// What the phases of one step share.
 pub(crate) struct Phases<'a, S, const D: usize> {
@@ -36,7 +36,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         sums: &mut Sums<D>,
         trial: bool,
     ) -> Result<(), SolveError> {
-        let time = self.time;
+        let (time, kinematics) = (self.time, self.transfers.kinematics);
         self.transfers
             .to_grid(scene, sums, |body, i, _, _| {
                 let particles = body.particles();
@@ -48,8 +48,10 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 let jacobian = stressed.deformation_gradient[i].determinant();
                 let x = &particles.motion.position[i];
                 let acceleration = scene.body_acceleration(x, time);
+                let volume = particles.volume[i] * jacobian;
+                let force = StressForce::new(kinematics, &stressed.stress[i], volume, x);
                 Gift {
-                    volume_stress: Some(stressed.stress[i] * (particles.volume[i] * jacobian)),
+                    stress: Some(force),
                     acceleration: acceleration.unwrap_or_else(SVector::zeros),
                     ..momentum(particles, i, false)
                 }
@@ -194,7 +196,7 @@ fn momentum<const D: usize>(particles: &Particles<D>, i: usize, trial: bool) -> 
         mass: particles.mass[i],
         velocity: motion.velocity[i],
         affine: motion.affine.get(i).copied(),
-        volume_stress: None,
+        stress: None,
         acceleration: SVector::zeros(),
     }
 }

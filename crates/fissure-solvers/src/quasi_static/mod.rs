@@ -1,0 +1,18 @@
+//! Quasi-static material-point method [Sanchez 2010, app. B]: equilibrium of every load step by
+//! Newton's method with the law's tangent.
+//!
+//! The unknowns are the displacement increments of the nodes; the nodes return to their places
+//! after each step. With `f = 1 + ∇u` the increment of deformation, `F = f·F_old`,
+//! `∇_x N = f⁻ᵀ ∇N`, the residual is `f_ext − Σ V σ·∇_x N` and its derivative is assembled from
+//! the law's Truesdell tangent `c` and the stress: `Σ V (∇_x N_i · c · ∇_x N_j + ∇_x N_i·σ·∇_x N_j 1)`.
+//! A step that does not converge is cut and tried again; the scene is untouched until one does.
+
+mod assembly;
+mod freedoms;
+mod kernel;
+mod settings;
+mod sparse;
+mod step;
+
+pub use settings::QuasiStaticSettings;
+pub use step::QuasiStatic;

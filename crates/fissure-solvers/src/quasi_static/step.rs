@@ -1,0 +1,432 @@
+//! One load step: Newton's method, cut and retried until it converges.
+
+use fissure_grid::{Grid, Shape};
+use fissure_materials::Tangent;
+use fissure_scene::{
+    Body, ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepSettings, SweepTotals,
+};
+use nalgebra::SVector;
+
+use super::assembly::{Assembly, relative};
+use super::freedoms::{Freedoms, NONE};
+use super::kernel::DisplacementKernel;
+use super::settings::QuasiStaticSettings;
+use crate::constraints::Constraints;
+use crate::loads::add_loads;
+use crate::placement::{Placement, check_columns};
+use crate::to_grid::{Gift, StressForce, Sums, Transfers};
+
+/// Quasi-static material-point solver on a grid with a shape function.
+pub struct QuasiStatic<S, const D: usize> {
+    grid: Grid<D>,
+    shape: S,
+    settings: QuasiStaticSettings,
+    placement: Placement<D>,
+    constraints: Constraints<D>,
+    freedoms: Freedoms<D>,
+    assembly: Assembly<D>,
+    external: Sums<D>,
+    internal: Sums<D>,
+    displacement: Vec<SVector<f64, D>>,
+    tangents: Vec<Vec<Tangent>>,
+    /// Length of the next step, s.
+    next_step: f64,
+    /// Largest reaction so far, N: what residuals are measured by.
+    force_scale: f64,
+    /// Nodal displacements of the last step were mapped to the particles' velocities.
+    has_stepped: bool,
+}
+
+/// Why an attempt at a step did not end in equilibrium.
+enum Failed {
+    /// Residual over its scale after the last iteration.
+    Residual(f64),
+    /// A law or the grid refused; a shorter step may do.
+    Refused(SolveError),
+    /// No solution of the linear system.
+    Singular,
+}
+
+/// A step in equilibrium, not yet committed.
+struct Equilibrium<const D: usize> {
+    totals: SweepTotals,
+    reactions: Vec<SVector<f64, D>>,
+    iterations: usize,
+    load_work: f64,
+}
+
+impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
+    /// A solver with nothing moved yet.
+    ///
+    /// # Errors
+    /// A setting outside its range.
+    pub fn new(grid: Grid<D>, shape: S, settings: QuasiStaticSettings) -> Result<Self, SolveError> {
+        settings.check()?;
+        Ok(Self {
+            grid,
+            shape,
+            settings,
+            placement: Placement::default(),
+            constraints: Constraints::default(),
+            freedoms: Freedoms::default(),
+            assembly: Assembly::default(),
+            external: Sums::default(),
+            internal: Sums::default(),
+            displacement: Vec::new(),
+            tangents: Vec::new(),
+            next_step: settings.step,
+            force_scale: 0.0,
+            has_stepped: false,
+        })
+    }
+
+    fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
+        if self.placement.is_current(scene) {
+            return Ok(());
+        }
+        if self.placement.is_edited(scene) {
+            check_columns(scene)?;
+            self.settings.band.check(&self.shape, &self.grid, scene)?;
+        }
+        self.placement.update(&self.grid, scene)
+    }
+
+    /// Tries a step of length `dt`; the trial motion of the scene holds its end.
+    fn attempt(
+        &mut self,
+        scene: &mut Scene<D>,
+        dt: f64,
+        predict: bool,
+    ) -> Result<Equilibrium<D>, Failed> {
+        let Self {
+            grid,
+            shape,
+            settings,
+            placement,
+            constraints,
+            freedoms,
+            assembly,
+            external,
+            internal,
+            displacement,
+            tangents,
+            force_scale,
+            ..
+        } = self;
+        let (step, time) = (scene.step() + 1, scene.time());
+        let end = time + dt;
+        let transfers = Transfers {
+            grid,
+            shape,
+            placement,
+            kinematics: scene.kinematics(),
+        };
+        let off_grid = |scene: &Scene<D>, (body, index): (usize, usize)| {
+            let body = &scene.bodies()[body];
+            Failed::Refused(SolveError::Outside {
+                body: body.name().to_owned(),
+                id: body.particles().id[index],
+                position: body.motion().position[index].iter().copied().collect(),
+                step,
+                time,
+            })
+        };
+        constraints
+            .collect(scene, grid, shape, placement, end)
+            .map_err(Failed::Refused)?;
+        assembly
+            .link(&transfers, scene)
+            .map_err(|failed| off_grid(scene, failed))?;
+        let reached = assembly.reached(placement.tiles.node_count());
+        freedoms.number(reached.len(), |node| reached[node], constraints);
+        external_forces(&transfers, scene, external, end)
+            .map_err(|failed| off_grid(scene, failed))?;
+
+        displacement.clear();
+        displacement.extend(external.nodes.iter().map(|sum| {
+            if predict && sum.mass > 0.0 {
+                sum.momentum * (dt / sum.mass)
+            } else {
+                SVector::zeros()
+            }
+        }));
+        let mut held = vec![SVector::zeros(); displacement.len()];
+        for node in &constraints.held {
+            let present = displacement[node.node] / dt;
+            held[node.node] = (node.apply(&present) - present) * dt;
+        }
+
+        tangents.resize(scene.bodies().len(), Vec::new());
+        let mut error = f64::INFINITY;
+        for iteration in 0..=settings.max_iterations {
+            let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
+                .map_err(Failed::Refused)?;
+            internal_forces(&transfers, scene, internal)
+                .map_err(|failed| off_grid(scene, failed))?;
+            let (mut right, residual, reaction) = residual(freedoms, internal, external);
+            *force_scale = force_scale.max(reaction);
+            error = if *force_scale > 0.0 {
+                residual / *force_scale
+            } else {
+                residual
+            };
+            let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
+            if placed && error <= settings.tolerance {
+                return Ok(Equilibrium {
+                    totals,
+                    reactions: reactions(scene, constraints, internal, external),
+                    iterations: iteration,
+                    load_work: load_work(external, displacement),
+                });
+            }
+            if iteration == settings.max_iterations || !error.is_finite() {
+                break;
+            }
+            assembly
+                .solve(
+                    scene,
+                    transfers.kinematics,
+                    tangents,
+                    freedoms,
+                    &mut right,
+                    &held,
+                    displacement,
+                )
+                .map_err(|_| Failed::Singular)?;
+            for (u, change) in displacement.iter_mut().zip(&mut held) {
+                *u += std::mem::take(change);
+            }
+        }
+        Err(Failed::Residual(error))
+    }
+
+    /// Makes the trial the present and books the step.
+    fn accept(
+        &mut self,
+        scene: &mut Scene<D>,
+        dt: f64,
+        equilibrium: Equilibrium<D>,
+    ) -> Result<Report<D>, SolveError> {
+        for body in scene.bodies_mut() {
+            body.commit()?;
+        }
+        self.placement.note_moves(&self.grid, scene);
+        self.has_stepped = true;
+        let end = scene.time() + dt;
+        let mut work = equilibrium.load_work;
+        for (condition, now) in scene.conditions().iter().zip(&equilibrium.reactions) {
+            if let ConditionKind::Velocity { hold, speed } = condition.kind() {
+                let before = scene
+                    .reaction(condition.name())
+                    .unwrap_or_else(SVector::zeros);
+                let way = hold.direction() * (speed.at(end) * dt);
+                work += (before + now).dot(&way) * 0.5;
+            }
+        }
+        let report = Report {
+            step: scene.step() + 1,
+            time: end,
+            dt,
+            energy: StepEnergy {
+                external: work,
+                // In equilibrium the internal forces take what the external ones give.
+                internal: work,
+                stored: equilibrium.totals.stored,
+                dissipated: equilibrium.totals.dissipated,
+                ..StepEnergy::default()
+            },
+            reactions: equilibrium.reactions,
+            iterations: equilibrium.iterations,
+        };
+        scene.record(&report);
+        Ok(report)
+    }
+}
+
+impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
+    fn step(&mut self, scene: &mut Scene<D>, until: f64) -> Result<Report<D>, SolveError> {
+        self.prepare(scene)?;
+        let left = until - scene.time();
+        let mut dt = self.next_step.min(left);
+        let (mut cuts, mut predict) = (0, self.has_stepped);
+        loop {
+            let failed = match self.attempt(scene, dt, predict) {
+                Ok(equilibrium) => {
+                    // A step shortened only by the end of the run does not shorten the next.
+                    if cuts > 0 || dt < left {
+                        let grown = if cuts == 0 { 2.0 * dt } else { dt };
+                        self.next_step = grown.min(self.settings.step);
+                    }
+                    return self.accept(scene, dt, equilibrium);
+                }
+                Err(failed) => failed,
+            };
+            if predict {
+                // The extrapolated start may be what failed.
+                predict = false;
+                continue;
+            }
+            cuts += 1;
+            if cuts > self.settings.max_cuts {
+                let (step, time) = (scene.step() + 1, scene.time());
+                return Err(match failed {
+                    Failed::Refused(error) => error,
+                    Failed::Singular => SolveError::Singular { step, time },
+                    Failed::Residual(residual) => SolveError::NoConvergence {
+                        step,
+                        time,
+                        cuts: cuts - 1,
+                        residual,
+                        tolerance: self.settings.tolerance,
+                    },
+                });
+            }
+            dt *= 0.5;
+        }
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let stepped = f64::from(u8::from(self.has_stepped));
+        vec![self.next_step, self.force_scale, stepped]
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        if let [next_step, force_scale, stepped] = *memory {
+            self.next_step = next_step;
+            self.force_scale = force_scale;
+            self.has_stepped = stepped != 0.0;
+        }
+    }
+}
+
+/// Trial motion, stresses and tangents for nodal displacements.
+fn strain<S: Shape<D>, const D: usize>(
+    scene: &mut Scene<D>,
+    transfers: &Transfers<'_, S, D>,
+    displacement: &[SVector<f64, D>],
+    settings: &QuasiStaticSettings,
+    dt: f64,
+    tangents: &mut [Vec<Tangent>],
+) -> Result<SweepTotals, SolveError> {
+    let (step, time) = (scene.step() + 1, scene.time());
+    let mut totals = SweepTotals::default();
+    for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
+        let kernel = DisplacementKernel {
+            transfers,
+            displacement,
+            half_edges: *body.half_edges(),
+            dt,
+        };
+        let sweep = SweepSettings {
+            dt,
+            band: settings.band.band(transfers.shape, transfers.grid, body),
+            viscosity: None,
+        };
+        let runs = &transfers.placement.runs[index];
+        let part = body
+            .sweep_with_tangents(runs, &kernel, &sweep, &mut tangents[index])
+            .map_err(|failure| failure.at(body, step, time))?;
+        totals = totals.merge(part);
+    }
+    Ok(totals)
+}
+
+/// Mass, momentum (for the predictor), body forces and loads at the nodes.
+fn external_forces<S: Shape<D>, const D: usize>(
+    transfers: &Transfers<'_, S, D>,
+    scene: &Scene<D>,
+    sums: &mut Sums<D>,
+    time: f64,
+) -> Result<(), (usize, usize)> {
+    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
+        let particles = body.particles();
+        let acceleration = scene.body_acceleration(&particles.motion.position[i], time);
+        Gift {
+            mass: particles.mass[i],
+            velocity: particles.motion.velocity[i],
+            affine: None,
+            stress: None,
+            acceleration: acceleration.unwrap_or_else(SVector::zeros),
+        }
+    })?;
+    add_loads(transfers, scene, sums, time)
+}
+
+/// Internal forces of the trial stresses on the nodes, with gradients at the end of the step.
+fn internal_forces<S: Shape<D>, const D: usize>(
+    transfers: &Transfers<'_, S, D>,
+    scene: &Scene<D>,
+    sums: &mut Sums<D>,
+) -> Result<(), (usize, usize)> {
+    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
+        let particles = body.particles();
+        let f_new = &particles.trial.deformation_gradient[i];
+        let f_old = &particles.motion.deformation_gradient[i];
+        let volume = particles.volume[i] * f_new.determinant();
+        let mut stress = StressForce::new(
+            transfers.kinematics,
+            &particles.trial.stress[i],
+            volume,
+            &particles.trial.position[i],
+        );
+        stress.on_gradient *= relative::<D>(f_new, f_old);
+        Gift {
+            mass: 0.0,
+            velocity: SVector::zeros(),
+            affine: None,
+            stress: Some(stress),
+            acceleration: SVector::zeros(),
+        }
+    })
+}
+
+/// Unbalanced force of every equation, its norm, and the norm of the reactions and loads.
+fn residual<const D: usize>(
+    freedoms: &Freedoms<D>,
+    internal: &Sums<D>,
+    external: &Sums<D>,
+) -> (Vec<f64>, f64, f64) {
+    let mut right = vec![0.0; freedoms.count];
+    let (mut unbalanced, mut reaction) = (0.0, 0.0);
+    let sums = internal.nodes.iter().zip(&external.nodes);
+    for (node, (internal, external)) in freedoms.nodes.iter().zip(sums) {
+        let force = internal.internal_force + external.external_force;
+        for (direction, &equation) in node.directions.iter().zip(&node.equations) {
+            let component = direction.dot(&force);
+            if equation != NONE {
+                right[equation as usize] = component;
+                unbalanced += component * component;
+                let load = direction.dot(&external.external_force);
+                reaction += load * load;
+            } else {
+                reaction += component * component;
+            }
+        }
+    }
+    (right, unbalanced.sqrt(), reaction.sqrt())
+}
+
+/// Force that each condition exerts, N.
+fn reactions<const D: usize>(
+    scene: &Scene<D>,
+    constraints: &Constraints<D>,
+    internal: &Sums<D>,
+    external: &Sums<D>,
+) -> Vec<SVector<f64, D>> {
+    let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
+    for held in &constraints.held {
+        let unbalanced =
+            internal.nodes[held.node].internal_force + external.nodes[held.node].external_force;
+        for k in 0..held.count {
+            let direction = held.directions[k];
+            reactions[held.conditions[k]] -= direction * direction.dot(&unbalanced);
+        }
+    }
+    reactions
+}
+
+/// Work of loads and body forces over the step, J; they are taken at its end.
+fn load_work<const D: usize>(external: &Sums<D>, displacement: &[SVector<f64, D>]) -> f64 {
+    let pairs = external.nodes.iter().zip(displacement);
+    pairs.map(|(sum, u)| sum.external_force.dot(u)).sum()
+}
