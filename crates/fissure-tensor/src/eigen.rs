@@ -121,7 +121,8 @@ impl Deflated {
         let step = 1.0 / (gap * gap - self.radius * self.radius);
         let along_u = step * ((gap + self.block_half) * p + self.block_off * q);
         let along_w = step * ((gap - self.block_half) * q + self.block_off * p);
-        let axis = polished(self.axis + (u * along_u + w * along_w));
+        // The step is 1e-10 at most: its square does not change the length.
+        let axis = self.axis + (u * along_u + w * along_w);
 
         let positive = self.block_half >= 0.0;
         let large = self.block_half.abs() + self.radius;
@@ -181,7 +182,8 @@ fn separated_vector(b: &[f64; 6], root: f64) -> Vector3<f64> {
     } else {
         Vector3::new(axz, ayz, azz)
     };
-    column * (1.0 / column.dot(&column).sqrt())
+    // Twice the error of the length would go into the eigenvalue.
+    polished(column * (1.0 / column.dot(&column).sqrt()))
 }
 
 /// A vector of unit length up to a few units of round-off, brought to within one.
