@@ -121,8 +121,7 @@ impl Deflated {
         let step = 1.0 / (gap * gap - self.radius * self.radius);
         let along_u = step * ((gap + self.block_half) * p + self.block_off * q);
         let along_w = step * ((gap - self.block_half) * q + self.block_off * p);
-        // The step is 1e-10 at most: its square does not change the length.
-        let axis = self.axis + (u * along_u + w * along_w);
+        let axis = polished(self.axis + (u * along_u + w * along_w));
 
         let positive = self.block_half >= 0.0;
         let large = self.block_half.abs() + self.radius;
