@@ -181,7 +181,8 @@ fn separated_vector(b: &[f64; 6], root: f64) -> Vector3<f64> {
     } else {
         Vector3::new(axz, ayz, azz)
     };
-    column * (1.0 / column.dot(&column).sqrt())
+    // Twice the error of the length would go into the eigenvalue.
+    polished(column * (1.0 / column.dot(&column).sqrt()))
 }
 
 /// A vector of unit length up to a few units of round-off, brought to within one.
