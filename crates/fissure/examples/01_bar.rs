@@ -17,7 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         softening: softening::Linear,
         normal: Normal::Prescribed(Vector3::x()),
     };
-    let ramp = 10.0 * l / 3340.0;
+    let qs = std::env::args().nth(2).is_some();
+    let ramp = if qs { 1e-12 } else { 10.0 * l / 3340.0 };
     let speed = move |t: f64| 0.01 * (t / ramp).min(1.0);
     let mut scene = Scene::plane(Plane::Strain { thickness: 0.06 });
     scene
@@ -50,7 +51,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             },
         )?;
     let grid = Grid::over([-4.0 * h, -4.0 * h], [l + 4.0 * h, w + 4.0 * h], h)?;
-    let mut solver = Explicit::new(grid, shape::Linear, ExplicitSettings::default())?;
+    let mut solver: Box<dyn Solver<2>> = if qs {
+        Box::new(QuasiStatic::new(grid, shape::Linear, QuasiStaticSettings { step: 6.3e-3 / 150.0, ..Default::default() })?)
+    } else {
+        Box::new(Explicit::new(grid, shape::Linear, ExplicitSettings::default())?)
+    };
     let u0 = 2.0 * 61.35 / (0.9 * 2.7e6);
     let end = ramp / 2.0 + 1.25 * u0 / 0.01;
     let start = std::time::Instant::now();

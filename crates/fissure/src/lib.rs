@@ -19,7 +19,10 @@ pub mod prelude {
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;
-    pub use fissure_solvers::{Explicit, ExplicitSettings, StressUpdate, Transfer};
+    pub use fissure_solvers::{
+        BandSource, Explicit, ExplicitSettings, QuasiStatic, QuasiStaticSettings, StressUpdate,
+        Transfer,
+    };
     pub use fissure_tensor::{Band, Matrix3, Sym, Vector3};
     pub use nalgebra::{Vector2, vector};
 }

@@ -194,7 +194,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 )
                 .map_err(|_| Failed::Singular)?;
             for (u, change) in displacement.iter_mut().zip(&mut held) {
-                *u += std::mem::take(change);
+                *u += *change;
+                *change = SVector::zeros();
             }
         }
         Err(Failed::Residual(error))
