@@ -85,7 +85,7 @@ impl EnergyTotals {
 }
 
 /// What a solver says of a step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report<const D: usize> {
     /// Number of the step, counted from 1.
     pub step: u64,

@@ -23,6 +23,7 @@
 mod body;
 mod condition;
 mod error;
+mod every;
 mod kinematics;
 mod law;
 mod ledger;
@@ -34,6 +35,7 @@ mod sweep;
 pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
 pub use error::{PersistError, SceneError, SolveError, WatchError};
+pub use every::Every;
 pub use kinematics::{Kinematics, Plane};
 pub use law::BodyLaw;
 pub use ledger::{EnergyTotals, Report, StepEnergy};

@@ -28,6 +28,20 @@ pub trait Watch<const D: usize> {
     /// # Errors
     /// Stops the run.
     fn after(&mut self, scene: &Scene<D>, report: &Report<D>) -> Result<(), WatchError>;
+
+    /// What [`run`] calls: [`after`](Self::after), for a watch that also needs the solver. A
+    /// checkpoint does, for its [`memory`](Solver::memory).
+    ///
+    /// # Errors
+    /// Stops the run.
+    fn after_with_solver(
+        &mut self,
+        scene: &Scene<D>,
+        report: &Report<D>,
+        _solver: &dyn Solver<D>,
+    ) -> Result<(), WatchError> {
+        self.after(scene, report)
+    }
 }
 
 /// When a run ends.
@@ -69,7 +83,7 @@ pub fn run<const D: usize>(
         };
         let report = solver.step(scene, limit)?;
         for watch in watches.iter_mut() {
-            watch.after(scene, &report)?;
+            watch.after_with_solver(scene, &report, solver)?;
         }
     }
 }
