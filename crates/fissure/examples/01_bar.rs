@@ -52,9 +52,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         )?;
     let grid = Grid::over([-4.0 * h, -4.0 * h], [l + 4.0 * h, w + 4.0 * h], h)?;
     let mut solver: Box<dyn Solver<2>> = if qs {
-        Box::new(QuasiStatic::new(grid, shape::Linear, QuasiStaticSettings { step: 6.3e-3 / 150.0, ..Default::default() })?)
+        Box::new(QuasiStatic::new(
+            grid,
+            shape::Linear,
+            QuasiStaticSettings {
+                step: 6.3e-3 / 150.0,
+                ..Default::default()
+            },
+        )?)
     } else {
-        Box::new(Explicit::new(grid, shape::Linear, ExplicitSettings::default())?)
+        Box::new(Explicit::new(
+            grid,
+            shape::Linear,
+            ExplicitSettings::default(),
+        )?)
     };
     let u0 = 2.0 * 61.35 / (0.9 * 2.7e6);
     let end = ramp / 2.0 + 1.25 * u0 / 0.01;
