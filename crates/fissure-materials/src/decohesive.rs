@@ -386,6 +386,14 @@ impl<S: Softening> Cracking for Decohesive<S> {
         }
     }
 
+    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        let considered = match self.normal {
+            Normal::Rankine => true,
+            Normal::Prescribed(only) => only.normalize().cross(normal).norm() <= 1e-12,
+        };
+        considered.then(|| stress.normal_component(normal) / self.strength(scale) - 1.0)
+    }
+
     fn cracks(&self, state: &DecohesiveState) -> Vec<Crack> {
         if state.width == 0.0 {
             return Vec::new();
