@@ -49,7 +49,9 @@ pub(super) fn fracture_energy<M: Cracking>() -> Property<M> {
                         "a crack is wider than critical and not failed",
                     );
                 }
+                gauge.softened = true;
                 if crack.failed {
+                    gauge.failed = true;
                     gauge.check(
                         (energy - toughness).abs(),
                         bound,

@@ -114,9 +114,12 @@ impl Contract {
         self.run_all(&cracking(), &subject, &mut summary)?;
         let fails = law.critical_opening(&Scale::default()).is_finite();
         if summary.softened == 0 || (fails && summary.failed == 0) {
-            let reason = "no crack softened, or none failed though the critical opening is \
-                          finite: strength or critical opening are not those of the law";
-            return Err(self.without_case("P7 irreversibility", reason.to_owned()));
+            let reason = format!(
+                "{} cracks softened and {} failed, in histories drawn up to beyond the critical \
+                 opening: strength or critical opening are not those of the law",
+                summary.softened, summary.failed
+            );
+            return Err(self.without_case("P7 irreversibility", reason));
         }
         summary.tallies.push(Tally {
             property: "P17 order of cracks",

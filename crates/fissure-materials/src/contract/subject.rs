@@ -3,6 +3,7 @@
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 
 use super::{Case, Contract, Random, case::Step};
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
 use crate::{Cracking, External, Increment, Material, MaterialError, Response, Scale};
 
 /// A law and what the generator has to know of it.
@@ -145,6 +146,17 @@ impl<'a, M: Material> Subject<'a, M> {
         Ok(Some((self.increment(*from, *to, &case.band), state)))
     }
 
+    /// Whether a tangent is the default one by plain differences, which is as good as the update
+    /// but resolves no bend sharper than its step.
+    pub fn is_default_tangent(
+        &self,
+        increment: &Increment,
+        old: &M::State,
+        tangent: &Tangent,
+    ) -> bool {
+        difference_tangent(self.law, increment, old, DIFFERENCE_STEP).is_ok_and(|t| t == *tangent)
+    }
+
     /// A band: the one asked for, else of any kind and down to a thousandth of the widest.
     pub fn draw_band(&self, random: &mut Random) -> Band {
         if let Some(band) = self.band {
@@ -171,7 +183,12 @@ impl<'a, M: Material> Subject<'a, M> {
             random.log_uniform(1e-12, self.reach)
         } else if self.opening > 0.0 && self.opening.is_finite() {
             let failure = self.natural + self.opening / band.max_width();
-            random.log_uniform(0.5 * self.natural, (1.5 * failure).min(0.2))
+            let most = (1.5 * failure).min(0.2);
+            if random.chance(0.5) {
+                random.uniform(0.3, 1.0) * most
+            } else {
+                random.log_uniform(0.5 * self.natural, most)
+            }
         } else {
             random.log_uniform(0.1 * self.natural, (20.0 * self.natural).min(self.reach))
         };
