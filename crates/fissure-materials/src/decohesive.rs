@@ -116,23 +116,26 @@ impl<S: Softening> Decohesive<S> {
         kinematics: &Biot,
         band: &Band,
         old: &DecohesiveState,
-    ) -> Step {
+    ) -> Result<Step, MaterialError> {
         let uncracked = point.elastic.stress(&kinematics.strain());
         let mut state = *old;
         let mut started = false;
         if state.width == 0.0 {
             match self.onset(point, &uncracked) {
                 None => {
-                    return Step {
+                    return Ok(Step {
                         biot_stress: uncracked,
                         state,
                         moving: None,
                         started,
-                    };
+                    });
                 }
                 Some(normal) => {
                     state.normal = normal.into();
                     state.width = band.width(&(kinematics.rotation * normal));
+                    // The door saw neither this rotation nor, for a band with an edge of zero,
+                    // this normal.
+                    point.check_width(state.width)?;
                     started = true;
                 }
             }
@@ -140,16 +143,34 @@ impl<S: Softening> Decohesive<S> {
         let normal = Vector3::from(state.normal);
         let moving = point.open(&mut state, uncracked.normal_component(&normal));
         let crack_strain = Sym::dyad(&normal) * (state.opening / state.width);
-        Step {
+        Ok(Step {
             biot_stress: uncracked - point.elastic.stress(&crack_strain),
             state,
             moving,
             started,
-        }
+        })
     }
 }
 
 impl<S: Softening> Point<'_, S> {
+    /// Largest band with a unique response, m (eq. 4.5.17).
+    fn band_limit(&self) -> f64 {
+        self.elastic.p_wave_modulus() * self.toughness
+            / (self.strength * self.strength * self.softening.steepest())
+    }
+
+    fn check_width(&self, width: f64) -> Result<(), MaterialError> {
+        let limit = self.band_limit();
+        if width > 0.0 && width < limit {
+            return Ok(());
+        }
+        Err(MaterialError::Band {
+            law: NAME,
+            width,
+            limit,
+        })
+    }
+
     /// Moves the opening for the normal traction `uncracked` that the strain would give without
     /// the crack. Returns the slope of the traction over the opening if it moved.
     fn open(&self, state: &mut DecohesiveState, uncracked: f64) -> Option<f64> {
@@ -212,16 +233,7 @@ impl<S: Softening> Material for Decohesive<S> {
             Normal::Prescribed(normal) => band.width(&normal.normalize()),
             Normal::Rankine => band.max_width(),
         };
-        let limit = self.band_limit(scale);
-        if width > 0.0 && width < limit {
-            Ok(())
-        } else {
-            Err(MaterialError::Band {
-                law: NAME,
-                width,
-                limit,
-            })
-        }
+        self.point(scale).check_width(width)
     }
 
     fn isotropic(&self) -> bool {
@@ -243,7 +255,7 @@ impl<S: Softening> Material for Decohesive<S> {
     ) -> Result<Response<DecohesiveState>, MaterialError> {
         let point = self.point(&increment.external.scale);
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&point, &kinematics, &increment.band, old);
+        let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
     }
 
@@ -262,7 +274,7 @@ impl<S: Softening> Material for Decohesive<S> {
     ) -> Result<(Response<DecohesiveState>, Tangent), MaterialError> {
         let point = self.point(&increment.external.scale);
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&point, &kinematics, &increment.band, old);
+        let step = self.step(&point, &kinematics, &increment.band, old)?;
         let mut modulus = point.elastic.stiffness();
         if let Some(slope) = step.moving {
             let normal = Vector3::from(step.state.normal);
@@ -364,9 +376,7 @@ impl<S: Softening> Cracking for Decohesive<S> {
     }
 
     fn band_limit(&self, scale: &Scale) -> f64 {
-        let strength = self.strength(scale);
-        self.elastic.scaled(scale).p_wave_modulus() * self.toughness(scale)
-            / (strength * strength * self.softening.steepest())
+        self.point(scale).band_limit()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
