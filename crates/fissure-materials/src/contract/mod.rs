@@ -28,6 +28,8 @@ mod generator;
 mod report;
 mod runner;
 mod shrink;
+#[cfg(feature = "proptest")]
+pub mod strategies;
 mod subject;
 mod substeps;
 mod tangent;
