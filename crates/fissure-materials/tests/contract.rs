@@ -165,6 +165,40 @@ fn hidden_state_is_found() {
 }
 
 #[test]
+fn every_small_fault_is_found_by_its_property() {
+    use broken::Fault;
+    for (fault, normal, property) in [
+        (Fault::CreepingState, Normal::Rankine, "P1 zero increment"),
+        (
+            Fault::ClaimsIsotropy,
+            Normal::Prescribed(Vector3::x()),
+            "P10 isotropy",
+        ),
+        (Fault::AbsolutePressure, Normal::Rankine, "P19 units"),
+        (Fault::Time, Normal::Rankine, "P12 sub-step convergence"),
+        (
+            Fault::FallingIrreversible,
+            Normal::Rankine,
+            "P7 irreversibility",
+        ),
+        (Fault::UnderstatedRatio, Normal::Rankine, "P5 consistency"),
+        (Fault::WrongOpening, Normal::Rankine, "P14 crack strain"),
+        (Fault::TurnedNormal, Normal::Rankine, "P18 initiation"),
+        (Fault::WideLimit, Normal::Rankine, "P24 band validation"),
+        (Fault::SlowWave, Normal::Rankine, "P24 validation"),
+        (Fault::LateOnset, Normal::Rankine, "P5 consistency"),
+    ] {
+        let law = broken::Faulty(decohesive(normal), fault);
+        let contract = Contract {
+            step_error_steps: 50,
+            ..Contract::default()
+        };
+        let name = contract.check_cracking(&law).map_err(|v| v.property);
+        assert_eq!(name.err(), Some(property), "{fault:?}");
+    }
+}
+
+#[test]
 fn a_rotated_crack_over_a_band_that_is_too_wide_is_refused() {
     // The door sees the width along the prescribed normal; turned by 45° the band is wider.
     let law = decohesive(Normal::Prescribed(Vector3::x()));
