@@ -76,4 +76,10 @@ impl Biot {
             solve_lyapunov(&self.stretch, &right_side).congruence(f) / self.jacobian
         })
     }
+
+    /// Spatial tangent of a stress `T` that changes along one tensor, by a rate linear in `d`.
+    pub(crate) fn spatial_rate(&self, along: &Sym, rate: impl Fn(&Sym) -> f64) -> Tangent {
+        let spatial = self.cauchy(along);
+        Tangent::from_columns(|d| spatial * rate(d))
+    }
 }

@@ -21,6 +21,7 @@ use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
     softening::{Linear, opening},
+    turning::Turning,
 };
 
 const NAME: &str = "elastic-decohesive law";
@@ -276,20 +277,26 @@ impl<S: Softening> Material for Decohesive<S> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&point, &kinematics, &increment.band, old)?;
         let mut modulus = point.elastic.stiffness();
+        let mut widening = Tangent::zero();
         if let Some(slope) = step.moving {
             let normal = Vector3::from(step.state.normal);
             let direction = point.elastic.stress(&Sym::dyad(&normal));
             let factor = point.elastic.p_wave_modulus() + slope * step.state.width;
             modulus = modulus - Tangent::dyad(&direction, &direction) * (1.0 / factor);
-            if step.started && self.normal == Normal::Rankine {
-                let turning = turning_normal(&point.elastic, &kinematics.strain(), &normal);
+            if step.started {
+                let turning = match self.normal {
+                    Normal::Rankine => Turning::principal(&kinematics.strain(), &normal),
+                    Normal::Prescribed(_) => Turning::fixed(&normal),
+                };
                 let crack_strain = step.state.opening / step.state.width;
-                let widening = widening_band(&increment.band, &kinematics, &normal);
-                modulus = modulus - turning * crack_strain
-                    + Tangent::dyad(&direction, &widening) * (slope * crack_strain / factor);
+                modulus = modulus - turning.of_crack_stress(&point.elastic) * crack_strain;
+                let per_width = direction * (slope * crack_strain / factor);
+                widening = kinematics.spatial_rate(&per_width, |d| {
+                    turning.of_width(&increment.band, &kinematics, d)
+                });
             }
         }
-        let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus);
+        let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus) + widening;
         Ok((point.response(&kinematics, &step, old), tangent))
     }
 
@@ -322,44 +329,6 @@ impl<S: Softening> Point<'_, S> {
             dissipated,
         }
     }
-}
-
-/// Derivative of `C:(n⊗n)` with the strain while `n` is the first principal direction: in the step
-/// in which a crack starts its normal still follows the strain,
-/// `d(n⊗n) = Σ_j (n·dε·m_j)/(ε_n − ε_j) (n⊗m_j + m_j⊗n)`. Coinciding strains are left out: there
-/// the direction is not differentiable.
-fn turning_normal(elastic: &Isotropic, strain: &Sym, normal: &Vector3<f64>) -> Tangent {
-    let spectrum = strain.spectrum();
-    let mut turning = Tangent::zero();
-    for j in 1..3 {
-        let gap = spectrum.values[0] - spectrum.values[j];
-        if gap > 1e-8 * strain.max_abs() {
-            let mixed = Sym::dyad_of(normal, &spectrum.vectors[j]);
-            let stress = mixed * (2.0 * elastic.shear_modulus());
-            turning = turning + Tangent::dyad(&stress, &mixed) * (2.0 / gap);
-        }
-    }
-    turning
-}
-
-/// Derivative of the width of the band with the strain in the step in which a crack starts: the
-/// normal turns as in [`turning_normal`]. That the rotation changes too is left out, an effect
-/// smaller by the strain squared.
-fn widening_band(band: &Band, kinematics: &Biot, normal: &Vector3<f64>) -> Sym {
-    const ANGLE: f64 = 1e-6;
-    let strain = kinematics.strain();
-    let spectrum = strain.spectrum();
-    let width = |n: Vector3<f64>| band.width(&(kinematics.rotation * n));
-    let mut widening = Sym::ZERO;
-    for j in 1..3 {
-        let gap = spectrum.values[0] - spectrum.values[j];
-        if gap > 1e-8 * strain.max_abs() {
-            let other = spectrum.vectors[j] * ANGLE;
-            let slope = (width(normal + other) - width(normal - other)) / (2.0 * ANGLE);
-            widening += Sym::dyad_of(normal, &spectrum.vectors[j]) * (slope / gap);
-        }
-    }
-    widening
 }
 
 impl<S: Softening> Cracking for Decohesive<S> {

@@ -24,6 +24,7 @@ mod increment;
 mod isotropic;
 mod material;
 pub mod softening;
+mod turning;
 
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};
