@@ -105,13 +105,9 @@ fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyErro
     let way = STRAIN * bar.length;
     let mut scene = bar.scene(&grid, move |_| way)?;
     let before = gauge_sections(&bar, &scene);
-    let settings = QuasiStaticSettings {
-        tolerance: 1e-10,
-        ..QuasiStaticSettings::default()
-    };
     let start = std::time::Instant::now();
-    let mut solver =
-        QuasiStatic::new(grid, shape, settings).map_err(StudyError::failed("setting up"))?;
+    let mut solver = QuasiStatic::new(grid, shape, QuasiStaticSettings::default())
+        .map_err(StudyError::failed("setting up"))?;
     solver
         .step(&mut scene, 1.0)
         .map_err(StudyError::failed(format!("running {}", case.label())))?;
