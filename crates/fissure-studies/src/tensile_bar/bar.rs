@@ -163,9 +163,16 @@ impl Bar {
                 origin: grid.origin().into(),
                 cell: self.spacing,
                 per_axis: 2,
-                clip: false,
+                clip: true,
             };
-            fill.seed(&block.rotated(self.angle, self.centre().into()))?
+            let mut seeds = fill.seed(&block.rotated(self.angle, self.centre().into()))?;
+            // Slivers of the bar in sub-cells whose centre is outside belong to nobody: shared out.
+            let missing = length * width / seeds.total_volume();
+            seeds
+                .volume
+                .iter_mut()
+                .for_each(|volume| *volume *= missing);
+            seeds
         };
         scene.add_body(BODY, self.law, seeds)?;
         if self.weakening < 1.0 {

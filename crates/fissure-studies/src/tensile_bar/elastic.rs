@@ -1,5 +1,6 @@
 //! The elastic bar: convergence with the grid spacing [Sanchez 2010, sec. 5.3, Table 5.2].
 
+use fissure::diagnostics::fit_slope;
 use fissure::prelude::*;
 
 use super::bar::{BODY, Bar};
@@ -20,21 +21,22 @@ const TABLE_5_2: [(f64, f64); 4] = [
 pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     let mut series: Vec<Series> = Vec::new();
     for case in cases {
-        let row = pull(case)?;
-        let (angle, fill) = (case.number("angle")?, case.choice("fill")?.to_owned());
-        let point = (row.h, row.load_error);
-        match series
-            .iter_mut()
-            .find(|s| s.angle == angle && s.fill == fill)
-        {
-            Some(series) => series.points.push(point),
-            None => series.push(Series {
-                angle,
-                fill,
-                points: vec![point],
-            }),
+        let pulled = pull(case)?;
+        let h = pulled.row.h;
+        for (measure, error) in [("gauge_load", pulled.gauge_load), ("load", pulled.load)] {
+            let named = |s: &&mut Series| s.fits(&pulled.row, case, measure);
+            match series.iter_mut().find(named) {
+                Some(series) => series.points.push((h, error)),
+                None => series.push(Series {
+                    angle: case.number("angle")?,
+                    fill: case.choice("fill")?.to_owned(),
+                    shape: pulled.row.shape.clone(),
+                    measure,
+                    points: vec![(h, error)],
+                }),
+            }
         }
-        rows.row(row.row)?;
+        rows.row(pulled.row)?;
     }
     for series in series.iter().filter(|series| series.points.len() > 1) {
         rows.row(series.row())?;
@@ -42,28 +44,38 @@ pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), Stud
     Ok(())
 }
 
-/// Errors of one angle and filling over the spacing.
+/// Errors of one angle, filling and shape over the spacing.
 struct Series {
     angle: f64,
     fill: String,
+    shape: String,
+    measure: &'static str,
     points: Vec<(f64, f64)>,
 }
 
 impl Series {
+    fn fits(&self, row: &SimulationRow, case: &Parameters, measure: &str) -> bool {
+        case.number("angle").is_ok_and(|angle| angle == self.angle)
+            && case.choice("fill").is_ok_and(|fill| fill == self.fill)
+            && row.shape == self.shape
+            && measure == self.measure
+    }
+
     fn row(&self) -> Row {
-        let log_error = |(_, error): &(f64, f64)| error.ln();
-        let errors: Vec<f64> = self.points.iter().map(log_error).collect();
-        let log_h: Vec<f64> = self.points.iter().map(|(h, _)| h.ln()).collect();
+        let (h, errors): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+        let order = fit_slope(&h, &errors).map_or(f64::NAN, |law| law.exponent);
         // "a least squares fit to the log E_p vs. h⁻¹ data": decades of error per 100/m.
-        let inverse_h: Vec<f64> = self.points.iter().map(|(h, _)| 1.0 / h).collect();
-        let worded = slope(&inverse_h, &errors) / std::f64::consts::LN_10 * 100.0;
+        let inverse_h: Vec<f64> = h.iter().map(|h| 0.01 / h).collect();
+        let decades: Vec<f64> = errors.iter().map(|error| error.log10()).collect();
         let document = TABLE_5_2.iter().find(|(angle, _)| *angle == self.angle);
         Row::other("tensile-bar")
             .field("case", "elastic slopes")
             .field("angle", self.angle)
             .field("fill", self.fill.as_str())
-            .field("slope", slope(&log_h, &errors))
-            .field("decades_per_100_inverse_m", worded)
+            .field("shape", self.shape.as_str())
+            .field("measure", self.measure)
+            .field("slope", order)
+            .field("decades_per_100_inverse_m", slope(&inverse_h, &decades))
             .field("table_5_2", document.map_or(f64::NAN, |(_, slope)| *slope))
     }
 }
@@ -80,8 +92,10 @@ fn slope(x: &[f64], y: &[f64]) -> f64 {
 
 struct Pulled {
     row: SimulationRow,
-    h: f64,
-    load_error: f64,
+    /// Error of the load against the elongation between the gauge sections.
+    gauge_load: f64,
+    /// Error of the load against the elongation of the whole bar (eq. 5.2.44).
+    load: f64,
 }
 
 fn pull(case: &Parameters) -> Result<Pulled, StudyError> {
@@ -115,21 +129,21 @@ fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyErro
     let strain = strain_between(&bar, &scene, &before);
     let exact = bar.exact();
     let stiffness = exact.area * exact.modulus;
-    let load_error = (load(&scene, &bar.axis()) / (stiffness * strain) - 1.0).abs();
+    let gauge_load = (load(&scene, &bar.axis()) / (stiffness * strain) - 1.0).abs();
     // The document's own measure (eq. 5.2.44) compares with the elongation of the whole bar.
     let whole = (load(&scene, &bar.axis()) / (stiffness * STRAIN) - 1.0).abs();
     let mut row = SimulationRow::new("tensile-bar", case);
     row.particles = scene.particle_count() as u64;
     row.steps = scene.step();
     row.wall_s = wall_s;
-    row.errors.insert("gauge_load", load_error);
+    row.errors.insert("gauge_load", gauge_load);
     row.errors.insert("load", whole);
     row.values.insert("gauge_strain", strain / STRAIN);
-    row.state_hash = 0;
+    row.state_hash = fissure::diagnostics::state_hash(&scene);
     Ok(Pulled {
-        h: bar.spacing,
-        load_error: whole,
         row,
+        gauge_load,
+        load: whole,
     })
 }
 

@@ -1,15 +1,13 @@
-//! What a run of the bar leaves: load, work and energies against elongation.
+//! What a run of the bar leaves: load and energies against elongation.
 
-use super::exact::Exact;
+use fissure::diagnostics::LoadCurve;
 
-/// One row per step.
-#[derive(Clone, Debug, Default)]
+/// One row per step, and the state of rest.
+#[derive(Clone, Debug)]
 pub(super) struct History {
-    /// Elongation, m.
-    pub elongation: Vec<f64>,
-    /// Load, N: mean of both grips.
-    pub load: Vec<f64>,
-    /// Work of the load, J.
+    /// Elongation, m, and load, N: mean of both grips.
+    pub curve: LoadCurve,
+    /// Work of the load up to each row, J.
     pub work: Vec<f64>,
     /// Stored energy, J.
     pub stored: Vec<f64>,
@@ -18,57 +16,50 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Adds a row; the work is integrated by the trapezoidal rule from rest.
+    /// A bar at rest.
+    pub(super) fn at_rest() -> Self {
+        Self {
+            curve: LoadCurve::starting_at(0.0, 0.0),
+            work: vec![0.0],
+            stored: vec![0.0],
+            dissipated: vec![0.0],
+        }
+    }
+
+    /// Adds a row; the work is integrated by the trapezoidal rule.
     pub(super) fn push(&mut self, elongation: f64, load: f64, stored: f64, dissipated: f64) {
-        let last = |column: &[f64]| column.last().copied().unwrap_or(0.0);
-        let way = elongation - last(&self.elongation);
-        let work = last(&self.work) + 0.5 * (load + last(&self.load)) * way;
-        self.elongation.push(elongation);
-        self.load.push(load);
-        self.work.push(work);
+        self.curve.push(elongation, load);
+        self.work.push(self.curve.work());
         self.stored.push(stored);
         self.dissipated.push(dissipated);
     }
 
-    /// Largest load, N; NaN if there is none.
-    pub(super) fn peak(&self) -> f64 {
-        let larger = |a: f64, &b: &f64| if a > b { a } else { b };
-        self.load.iter().fold(f64::NAN, larger)
-    }
-
-    /// `(∫(P − P_exact)² dδ / ∫P_exact² dδ)^½` up to `end`, by the trapezoidal rule on the rows.
-    pub(super) fn load_error(&self, exact: &Exact, end: f64) -> f64 {
-        let (mut error, mut size) = (0.0, 0.0);
-        let (mut before, mut error_before, mut size_before) = (0.0, 0.0, 0.0);
-        for (&elongation, &load) in self.elongation.iter().zip(&self.load) {
-            if elongation > end {
-                break;
-            }
-            let reference = exact.load(elongation);
-            let (error_now, size_now) = ((load - reference).powi(2), reference * reference);
-            let way = 0.5 * (elongation - before);
-            error += way * (error_now + error_before);
-            size += way * (size_now + size_before);
-            (before, error_before, size_before) = (elongation, error_now, size_now);
-        }
-        (error / size).sqrt()
-    }
-
     /// About `count` rows, the first and last among them.
-    pub(super) fn thinned(&self, count: usize) -> Self {
-        let rows = self.elongation.len();
-        let stride = rows.div_ceil(count).max(1);
+    pub(super) fn thinned(&self, count: usize) -> Thinned {
+        let stride = self.work.len().div_ceil(count).max(1);
         let keep = |column: &[f64]| -> Vec<f64> {
-            let thin = column.iter().step_by(stride).copied();
-            let last = column.last().filter(|_| rows % stride != 1 && stride > 1);
-            thin.chain(last.copied()).collect()
+            let rest = (column.len() - 1) % stride;
+            let thin = column.iter().step_by(stride);
+            thin.chain(column.last().filter(|_| rest > 0))
+                .copied()
+                .collect()
         };
-        Self {
-            elongation: keep(&self.elongation),
-            load: keep(&self.load),
+        Thinned {
+            elongation: keep(self.curve.displacement()),
+            load: keep(self.curve.load()),
             work: keep(&self.work),
             stored: keep(&self.stored),
             dissipated: keep(&self.dissipated),
         }
     }
+}
+
+/// The columns of a history with few rows, for pictures and tables.
+#[derive(Clone, Debug)]
+pub(super) struct Thinned {
+    pub elongation: Vec<f64>,
+    pub load: Vec<f64>,
+    pub work: Vec<f64>,
+    pub stored: Vec<f64>,
+    pub dissipated: Vec<f64>,
 }

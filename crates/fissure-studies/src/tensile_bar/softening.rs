@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
+use fissure::diagnostics::{EnergyBalance, FailedZone, state_hash};
 use fissure::prelude::*;
 use rayon::ThreadPoolBuilder;
 
 use super::bar::{BODY, Bar};
+use super::exact::Exact;
 use super::history::History;
 use super::pictures::Pictures;
-use crate::framework::{Parameters, Report as Rows, SimulationRow, StudyError};
+use crate::framework::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
 
 /// Where a run ends, over the critical opening.
 const END: f64 = 1.25;
@@ -38,7 +40,7 @@ pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), Stud
             .map_err(StudyError::failed("starting the worker threads"))?;
         let finished = pool.install(|| break_bar(&bar, case))?;
         rows.row(finished.row.clone())?;
-        pictures.add(&bar, case, finished)?;
+        pictures.add(&bar, case, &finished)?;
     }
     pictures.finish()
 }
@@ -100,7 +102,7 @@ fn break_on<S: Shape<2>>(bar: &Bar, case: &Parameters, shape: S) -> Result<Finis
     let width = band.width(&Vector3::new(axis.x, axis.y, 0.0));
     let mut solver = solver(case, grid, shape, band_source, loading.end)?;
     let start = Instant::now();
-    let mut history = History::default();
+    let mut history = History::at_rest();
     let mut elongation = 0.0;
     while scene.time() < loading.end {
         let report = solver
@@ -117,7 +119,7 @@ fn break_on<S: Shape<2>>(bar: &Bar, case: &Parameters, shape: S) -> Result<Finis
     }
     let wall_s = start.elapsed().as_secs_f64();
     Ok(Finished {
-        row: row(bar, case, &scene, &history, wall_s, width),
+        row: row(bar, case, &scene, &history, wall_s, width)?,
         history,
         scene,
     })
@@ -174,52 +176,40 @@ fn row(
     history: &History,
     wall_s: f64,
     band: f64,
-) -> SimulationRow {
+) -> Result<SimulationRow, StudyError> {
     let (exact, nominal) = (bar.exact(), bar.nominal());
-    let end = COMPARED * exact.critical_opening();
+    let load_error = |exact: &Exact| {
+        let kinks = [exact.peak_elongation(), exact.critical_opening()];
+        let end = COMPARED * bar.exact().critical_opening();
+        let load = |elongation| exact.load(elongation);
+        let error = history.curve.error(load, (0.0, end), &kinks);
+        error.map_err(StudyError::failed("comparing the load"))
+    };
+    let failed = FailedZone::of(scene, BODY, "opening", 0.5 * exact.critical_opening())
+        .map_err(StudyError::failed("measuring the failed zone"))?;
     let relative = |value: f64, reference: f64| (value / reference - 1.0).abs();
-    let work = history.work.last().copied().unwrap_or(f64::NAN);
-    let energy = scene.energy();
+    let balance = EnergyBalance::of(scene.energy());
     let mut row = SimulationRow::new("tensile-bar", case);
     row.particles = scene.particle_count() as u64;
     row.steps = scene.step();
     row.wall_s = wall_s;
-    row.errors
-        .insert("load_l2", history.load_error(&exact, end));
-    row.errors
-        .insert("peak", relative(history.peak(), exact.peak_load()));
-    row.errors.insert("work", relative(work, exact.energy()));
-    row.errors
-        .insert("dissipated", relative(energy.dissipated, exact.energy()));
-    row.values
-        .insert("dissipated_ratio", energy.dissipated / exact.energy());
-    let largest = energy.external.abs().max(energy.dissipated);
-    row.values
-        .insert("energy_imbalance", energy.imbalance().abs() / largest);
-    row.values
-        .insert("transfer_loss", energy.transfer_loss / exact.energy());
-    row.values.insert(
-        "failed_zone_cells",
-        failed_volume(scene, 0.5 * exact.critical_opening()) / (exact.area * bar.spacing),
-    );
-    row.values.insert("peak_load", history.peak());
-    row.values.insert("work", work);
-    row.values.insert("band", band);
-    row.values
-        .insert("load_l2_nominal", history.load_error(&nominal, end));
-    row.state_hash = 0;
-    row
-}
-
-/// Reference volume of the particles that have opened at least so far, m³.
-fn failed_volume(scene: &Scene<2>, opening: f64) -> f64 {
-    let Some(body) = scene.body(BODY) else {
-        return f64::NAN;
-    };
-    let openings = body.value("opening").unwrap_or_default();
-    let pairs = openings.iter().zip(&body.particles().volume);
-    pairs
-        .filter(|(o, _)| **o >= opening)
-        .map(|(_, volume)| volume)
-        .sum()
+    row.errors = Measures::new()
+        .with("load_l2", load_error(&exact)?)
+        .with("peak", relative(history.curve.peak(), exact.peak_load()))
+        .with("work", relative(history.curve.work(), exact.energy()))
+        .with("dissipated", relative(balance.dissipated, exact.energy()));
+    row.values = Measures::new()
+        .with("dissipated_ratio", balance.dissipated / exact.energy())
+        .with("energy_imbalance", balance.energy_imbalance().abs())
+        .with("transfer_loss", balance.transfer_loss / exact.energy())
+        .with(
+            "failed_zone_cells",
+            failed.volume / (exact.area * bar.spacing),
+        )
+        .with("peak_load", history.curve.peak())
+        .with("work", history.curve.work())
+        .with("band", band)
+        .with("load_l2_nominal", load_error(&nominal)?);
+    row.state_hash = state_hash(scene);
+    Ok(row)
 }
