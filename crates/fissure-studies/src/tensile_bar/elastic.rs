@@ -147,47 +147,41 @@ fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyErro
     })
 }
 
-/// Particles within half a cell of the sections 0.1 L inside the ends, with where they start.
-fn gauge_sections(bar: &Bar, scene: &Scene<2>) -> [Vec<(usize, Vector2<f64>)>; 2] {
+/// Particles near a section, by id, with where they start.
+type Section = Vec<(usize, Vector2<f64>)>;
+
+/// Particles within half a cell of the sections 0.1 L inside the ends.
+fn gauge_sections(bar: &Bar, scene: &Scene<2>) -> [Section; 2] {
     [0.1, 0.9].map(|section| {
         let Some(body) = scene.body(BODY) else {
             return Vec::new();
         };
-        let position = &body.particles().motion.position;
         let near = |x: &Vector2<f64>| {
             (bar.along(x) - section * bar.length).abs() <= 0.5 * bar.spacing * (1.0 + 1e-9)
         };
-        let ids = body.particles().id.iter().zip(position);
+        let ids = body.particles().id.iter().zip(body.motion().position);
         ids.filter(|(_, x)| near(x))
             .map(|(id, x)| (id.0 as usize, *x))
             .collect()
     })
 }
 
-/// Mean strain between the gauge sections.
-fn strain_between(bar: &Bar, scene: &Scene<2>, before: &[Vec<(usize, Vector2<f64>)>; 2]) -> f64 {
+/// Mean strain between the gauge sections; NaN if a section is empty.
+fn strain_between(bar: &Bar, scene: &Scene<2>, sections: &[Section; 2]) -> f64 {
     let Some(body) = scene.body(BODY) else {
         return f64::NAN;
     };
-    let mut by_id = vec![Vector2::zeros(); body.particles().len()];
-    for (id, x) in body
-        .particles()
-        .id
-        .iter()
-        .zip(&body.particles().motion.position)
-    {
-        by_id[id.0 as usize] = *x;
+    let mut now = vec![Vector2::zeros(); body.particles().len()];
+    for (id, x) in body.particles().id.iter().zip(body.motion().position) {
+        now[id.0 as usize] = *x;
     }
-    let mean = |section: &[(usize, Vector2<f64>)]| {
-        let along = |f: fn(&(Vector2<f64>, Vector2<f64>)) -> Vector2<f64>| {
-            let values = section.iter().map(|(id, x)| f(&(*x, by_id[*id])));
-            values.sum::<Vector2<f64>>() / section.len() as f64
-        };
-        let start = bar.along(&along(|(x, _)| *x));
-        let way = along(|(x, now)| now - x).dot(&bar.axis());
-        (start, way)
-    };
-    let (start, start_way) = mean(&before[0]);
-    let (end, end_way) = mean(&before[1]);
-    (end_way - start_way) / (end - start)
+    // Mean place along the bar at first, and mean way from there.
+    let [left, right] = sections.each_ref().map(|section| {
+        let count = section.len() as f64;
+        let place: f64 = section.iter().map(|(_, x)| bar.along(x)).sum();
+        let ways = section.iter().map(|(id, x)| now[*id] - x);
+        let way: f64 = ways.map(|way| way.dot(&bar.axis())).sum();
+        (place / count, way / count)
+    });
+    (right.1 - left.1) / (right.0 - left.0)
 }
