@@ -3,6 +3,12 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod axisymmetric;
+mod bar;
+mod convected;
+mod disc;
 mod energy;
+mod gravity;
 mod patch;
 mod rigid_motion;
+mod sections;

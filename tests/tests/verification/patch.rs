@@ -68,7 +68,8 @@ where
 
     /// Rows of interior particles by where they were.
     fn interior(&self, start: &[SVector<f64, D>]) -> Vec<usize> {
-        let inside = |x: &SVector<f64, D>| (0..D).all(|a| x[a] > self.low[a] && x[a] < self.high[a]);
+        let inside =
+            |x: &SVector<f64, D>| (0..D).all(|a| x[a] > self.low[a] && x[a] < self.high[a]);
         let rows: Vec<usize> = (0..start.len()).filter(|&i| inside(&start[i])).collect();
         assert!(rows.len() >= 1 << D, "{} interior particles", rows.len());
         rows
@@ -77,7 +78,8 @@ where
 
 /// A gradient without symmetry; about 0.2 % strain in a step.
 fn gradient<const D: usize>(case: &Case) -> SMatrix<f64, D, D> {
-    let full = SMatrix::from_fn(|i, j| [[3.0, -2.0, 1.0], [5.0, 1.0, -4.0], [-1.0, 2.0, 2.5]][i][j]);
+    let full =
+        SMatrix::from_fn(|i, j| [[3.0, -2.0, 1.0], [5.0, 1.0, -4.0], [-1.0, 2.0, 2.5]][i][j]);
     match (case.space, case.transfer, case.update) {
         // A hoop strain that varies is a stress out of balance before the nodes move.
         (Space::Axisymmetric, _, StressUpdate::First) => {
@@ -116,13 +118,28 @@ where
         if case.space == Space::Axisymmetric {
             exact.m33 += report.dt * v[0] / start[row][0];
         }
-        assert!((exact - Matrix3::identity()).norm() >= 1e-4, "{case:?}: no strain to see");
+        assert!(
+            (exact - Matrix3::identity()).norm() >= 1e-4,
+            "{case:?}: no strain to see"
+        );
         let error = (strained[row] - exact).norm();
-        assert!(error <= EXACT, "{case:?}: F is off by {error:e} at {}", start[row]);
+        assert!(
+            error <= EXACT,
+            "{case:?}: F is off by {error:e} at {}",
+            start[row]
+        );
         let error = (velocity[row] - v).norm() / v.norm();
-        assert!(error <= EXACT, "{case:?}: v is off by {error:e} at {}", start[row]);
+        assert!(
+            error <= EXACT,
+            "{case:?}: v is off by {error:e} at {}",
+            start[row]
+        );
         let error = (position[row] - start[row] - v * report.dt).norm();
-        assert!(error <= EXACT, "{case:?}: x is off by {error:e} at {}", start[row]);
+        assert!(
+            error <= EXACT,
+            "{case:?}: x is off by {error:e} at {}",
+            start[row]
+        );
     }
 }
 
@@ -138,7 +155,10 @@ where
         Space::Axisymmetric => strained = Matrix3::from_diagonal(&Vector3::new(1.02, 0.99, 1.02)),
         Space::Solid => (strained.m13, strained.m32, strained.m33) = (0.02, -0.01, 1.01),
     }
-    let stress = rubber().update(&Increment::to(strained), &()).unwrap().stress;
+    let stress = rubber()
+        .update(&Increment::to(strained), &())
+        .unwrap()
+        .stress;
     let particles = cube.particles();
     particles.motion.deformation_gradient.fill(strained);
     particles.motion.stress.fill(stress);
@@ -148,10 +168,17 @@ where
     let scale = stress.norm() * report.dt / (rubber().density() * H);
     for row in cube.interior(&start) {
         let error = velocity[row].norm() / scale;
-        assert!(error <= EXACT, "{case:?}: force {error:e} at {}", start[row]);
+        assert!(
+            error <= EXACT,
+            "{case:?}: force {error:e} at {}",
+            start[row]
+        );
     }
     let largest = velocity.iter().map(|v| v.norm()).fold(0.0, f64::max);
-    assert!(largest >= 1e-2 * scale, "{case:?}: nothing moved at the faces");
+    assert!(
+        largest >= 1e-2 * scale,
+        "{case:?}: nothing moved at the faces"
+    );
 }
 
 /// A column in the order of the ids.
@@ -173,7 +200,9 @@ fn d3_affine_velocities_strain_the_interior_exactly_in_plane() {
 
 #[test]
 fn d3_affine_velocities_strain_the_interior_exactly_axisymmetric() {
-    cases(Space::Axisymmetric).iter().for_each(affine_velocities::<2>);
+    cases(Space::Axisymmetric)
+        .iter()
+        .for_each(affine_velocities::<2>);
 }
 
 #[test]
@@ -188,7 +217,9 @@ fn d3_uniform_stress_leaves_the_interior_at_rest_in_plane() {
 
 #[test]
 fn d3_uniform_stress_leaves_the_interior_at_rest_axisymmetric() {
-    cases(Space::Axisymmetric).iter().for_each(uniform_stress::<2>);
+    cases(Space::Axisymmetric)
+        .iter()
+        .for_each(uniform_stress::<2>);
 }
 
 #[test]

@@ -15,7 +15,9 @@ where
     let cells = if D == 3 { 3.0 } else { 5.0 };
     let mut scene = Table::scene(case.space);
     let block = Block::new([0.0; D], [cells * H; D]);
-    scene.fill("block", rubber(), &block, &Spacing(H / 2.0)).unwrap();
+    scene
+        .fill("block", rubber(), &block, &Spacing(H / 2.0))
+        .unwrap();
     let speed = 0.5 * rubber().elastic.p_wave_speed();
     let velocity = SVector::<f64, D>::from_fn(|axis, _| match (case.space, axis) {
         // A radial velocity is a strain.
@@ -49,7 +51,11 @@ where
 
 fn by_id<const D: usize>(scene: &Scene<D>) -> Vec<SVector<f64, D>> {
     let particles = scene.bodies()[0].particles();
-    let mut pairs: Vec<_> = particles.id.iter().zip(&particles.motion.position).collect();
+    let mut pairs: Vec<_> = particles
+        .id
+        .iter()
+        .zip(&particles.motion.position)
+        .collect();
     pairs.sort_unstable_by_key(|(id, _)| **id);
     pairs.into_iter().map(|(_, x)| *x).collect()
 }
