@@ -7,9 +7,6 @@ use fissure::nalgebra;
 use fissure::prelude::*;
 use fissure_tests::{Build, ShapeKind, Space, Table, rubber};
 
-const CELLS: f64 = 32.0;
-const H: f64 = 1.0 / CELLS;
-
 fn law() -> Hencky {
     let mut law = rubber();
     law.elastic.poisson = 0.0;
@@ -20,21 +17,21 @@ fn speed() -> f64 {
     law().elastic.p_wave_speed()
 }
 
-/// A bar of 1 m, free on the right and moved on the left by a rigid body.
-fn bar(grip: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Scene<2> {
+/// A bar of 1 m in cells of `h`, free on the right and moved on the left by a rigid body.
+fn bar(h: f64, grip: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Scene<2> {
     let mut scene = Table::scene(Space::Plane);
     scene
         .fill(
             "bar",
             law(),
-            &Block::new([0.0, 0.0], [1.0, H]),
-            &Spacing(H / 2.0),
+            &Block::new([0.0, 0.0], [1.0, h]),
+            &Spacing(h / 2.0),
         )
         .unwrap()
         .rigid(
             "grip",
-            &Block::new([-H, 0.0], [0.0, H]),
-            &Spacing(H / 2.0),
+            &Block::new([-h, 0.0], [0.0, h]),
+            &Spacing(h / 2.0),
             Hold::Component(Vector2::x()),
             Velocity(grip),
         )
@@ -42,8 +39,8 @@ fn bar(grip: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Scene<2> {
     scene
 }
 
-fn solver(transfer: Transfer, update: StressUpdate) -> Box<dyn Solver<2>> {
-    let grid = Grid::over([-4.0 * H, -4.0 * H], [1.0 + 4.0 * H, 5.0 * H], H).unwrap();
+fn solver(h: f64, transfer: Transfer, update: StressUpdate) -> Box<dyn Solver<2>> {
+    let grid = Grid::over([-4.0 * h, -4.0 * h], [1.0 + 4.0 * h, 5.0 * h], h).unwrap();
     let settings = ExplicitSettings {
         transfer,
         stress_update: update,
@@ -54,13 +51,14 @@ fn solver(transfer: Transfer, update: StressUpdate) -> Box<dyn Solver<2>> {
 
 /// A9: frequency of the first mode, fixed-free, and the energy it keeps over ten periods.
 fn vibrate(transfer: Transfer, update: StressUpdate) -> (f64, f64) {
-    let mut scene = bar(|_| 0.0);
+    let h = 1.0 / 32.0;
+    let mut scene = bar(h, |_| 0.0);
     let amplitude = 1e-4 * speed();
     let mode = |x: f64| (0.5 * PI * x).sin();
     scene
         .set_velocity("bar", |x| vector![amplitude * mode(x[0]), 0.0])
         .unwrap();
-    let mut solver = solver(transfer, update);
+    let mut solver = solver(h, transfer, update);
     let period = 4.0 / speed();
     let start = scene.energy().kinetic;
     let modal = |scene: &Scene<2>| {
@@ -100,9 +98,8 @@ fn a9_first_mode_has_its_frequency_and_keeps_its_energy() {
         (flip, StressUpdate::First),
         (flip, StressUpdate::Musl),
         (flip, StressUpdate::Last),
-        (Transfer::Fmpm { order: 3 }, StressUpdate::First),
+        (Transfer::Fmpm { order: 3 }, StressUpdate::Last),
         (Transfer::Fmpm { order: 3 }, StressUpdate::Musl),
-        (Transfer::Xpic { order: 5 }, StressUpdate::Musl),
     ] {
         let (frequency, kept) = vibrate(transfer, update);
         println!("{transfer:?} {update:?}: frequency {frequency:.5}, energy {kept:.5}");
@@ -123,8 +120,10 @@ fn a9_first_mode_has_its_frequency_and_keeps_its_energy() {
 fn a8_step_wave_has_the_speed_of_sound_and_its_stress() {
     let strain = 1e-3;
     let pull = -strain * speed();
-    let mut scene = bar(move |_| pull);
-    let mut solver = solver(Transfer::Flip { pic: 0.0 }, StressUpdate::Musl);
+    // The front spreads as the cube root of the cells it passed.
+    let h = 1.0 / 128.0;
+    let mut scene = bar(h, move |_| pull);
+    let mut solver = solver(h, Transfer::Flip { pic: 0.0 }, StressUpdate::Musl);
     let stress = |scene: &Scene<2>, low: f64, high: f64| {
         let motion = scene.bodies()[0].motion();
         let pairs = motion.position.iter().zip(motion.stress);
@@ -133,13 +132,13 @@ fn a8_step_wave_has_the_speed_of_sound_and_its_stress() {
         stresses.iter().sum::<f64>() / stresses.len() as f64
     };
     let plateau = law().density() * speed() * speed() * strain;
-    let stations = [8.0 * H, 24.0 * H];
+    let stations = [0.25, 0.75];
     let mut arrivals = [None; 2];
     let mut before = [0.0; 2];
     while scene.time() < 0.95 / speed() {
         let report = solver.step(&mut scene, 0.95 / speed()).unwrap();
         for (k, x) in stations.iter().enumerate() {
-            let now = stress(&scene, x - H, x + H);
+            let now = stress(&scene, x - h, x + h);
             if arrivals[k].is_none() && now >= 0.5 * plateau {
                 let part = (now - 0.5 * plateau) / (now - before[k]);
                 arrivals[k] = Some(scene.time() - report.dt * part);
@@ -148,7 +147,7 @@ fn a8_step_wave_has_the_speed_of_sound_and_its_stress() {
         }
     }
     let found = (stations[1] - stations[0]) / (arrivals[1].unwrap() - arrivals[0].unwrap());
-    let behind = stress(&scene, 4.0 * H, 20.0 * H);
+    let behind = stress(&scene, 0.1, 0.6);
     println!(
         "speed {:.4}, stress {:.4}",
         found / speed(),
