@@ -12,7 +12,7 @@ use super::grid_update::{NodeMotion, velocity};
 use crate::constraints::Constraints;
 use crate::to_grid::{Gift, Sums, Transfers};
 
-/// Fills `filtered` of every node from the velocity that `source` picks.
+/// Fills `filtered` of every node from the velocity that `source` picks, which satisfies `held`.
 pub(crate) fn filter<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
@@ -40,15 +40,16 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
             }
         })?;
         coefficient *= -((order + 1 - r) as f64) / r as f64;
-        for ((node, v), sum) in nodes.iter_mut().zip(&mut term).zip(&scratch.nodes) {
+        for (v, sum) in term.iter_mut().zip(&scratch.nodes) {
             *v = velocity(sum);
-            node.filtered += *v * coefficient;
         }
-    }
-    if let Some(constraints) = held {
-        for held in &constraints.held {
-            let node = &mut nodes[held.node];
-            node.filtered = held.apply(&node.filtered);
+        // Every term is held, so that the expansion inverts the mass matrix of the free nodes.
+        // Holding the sum alone feeds energy in at a wall.
+        for held in held.into_iter().flat_map(|constraints| &constraints.held) {
+            term[held.node] = held.apply(&term[held.node]);
+        }
+        for (node, v) in nodes.iter_mut().zip(&term) {
+            node.filtered += v * coefficient;
         }
     }
     Ok(())

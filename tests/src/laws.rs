@@ -1,0 +1,62 @@
+//! Laws for tests.
+
+use fissure::materials::Hencky;
+use fissure::prelude::*;
+use fissure::tensor::Matrix3 as Tensor;
+
+/// A soft hyperelastic law: c = 100 m/s, ν = 0.25.
+pub fn rubber() -> Hencky {
+    Hencky {
+        elastic: Isotropic {
+            density: 1000.0,
+            young: 1e7 / 1.2,
+            poisson: 0.25,
+        },
+    }
+}
+
+/// Elastic up to a stretch of `limit` along x, where it refuses to go on.
+#[derive(Clone, Copy, Debug)]
+pub struct Refusing {
+    /// The law below the limit.
+    pub inner: Hencky,
+    /// Largest F₁₁ − 1.
+    pub limit: f64,
+}
+
+impl Material for Refusing {
+    /// Largest F₁₁ − 1 so far.
+    type State = f64;
+
+    const NAMES: &'static [&'static str] = &["largest strain"];
+
+    fn density(&self) -> f64 {
+        self.inner.density()
+    }
+
+    fn wave_speed(&self, f: &Tensor<f64>, _state: &f64, scale: &Scale) -> f64 {
+        self.inner.wave_speed(f, &(), scale)
+    }
+
+    fn update(&self, increment: &Increment, old: &f64) -> Result<Response<f64>, MaterialError> {
+        let strain = increment.f_new.m11 - 1.0;
+        if !(strain <= self.limit) {
+            return Err(MaterialError::NoConvergence {
+                law: "refusing law",
+                iterations: 7,
+                residual: strain,
+            });
+        }
+        let inner = self.inner.update(increment, &())?;
+        Ok(Response {
+            stress: inner.stress,
+            state: strain.max(*old),
+            stored: inner.stored,
+            dissipated: inner.dissipated,
+        })
+    }
+
+    fn values(&self, state: &f64, out: &mut [f64]) {
+        out[0] = *state;
+    }
+}
