@@ -1,4 +1,5 @@
 //! Section forces in bars stressed by hand and by a solver.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod support;
 
