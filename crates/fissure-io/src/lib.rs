@@ -8,8 +8,10 @@
 //! | `plot` | curves and coloured particles as PNG or SVG | `plots` |
 //! | `progress` | a bar on the terminal | `progress` |
 //!
-//! All of it works on plain slices in SI units; nothing is written unless asked. Files are replaced in one piece, except
-//! the table that is streamed, and every error names the file and what in it is wrong.
+//! Each works on plain slices, in SI units; [`vtk::ParticleSeries`], [`checkpoint::Checkpoint`],
+//! [`checkpoint::AutoCheckpoint`] and `progress::Progress` do the same for a running scene, as watches. Nothing is written
+//! unless asked. Files are replaced in one piece, except the table that is streamed, and every error names the file and
+//! what in it is wrong.
 //!
 //! ```
 //! use fissure_io::checkpoint::{CheckpointReader, CheckpointWriter};

@@ -1,9 +1,13 @@
 //! A bar on the terminal that says how far a run is and how long it will take.
 
+mod watch;
+
 use std::fmt;
 use std::io::IsTerminal;
 
 use indicatif::{ProgressDrawTarget, ProgressStyle};
+
+pub use watch::Progress;
 
 /// indicatif counts in whole numbers; a simulation advances in seconds. This many parts make the whole.
 const PARTS: u64 = 1_000_000;
@@ -36,6 +40,12 @@ impl ProgressBar {
             false => ProgressDrawTarget::hidden(),
         };
         Self::with_target(total, label, target)
+    }
+
+    /// Begins at `done` of the total, as after a restart: the time left is judged by what comes after.
+    pub fn start_at(&self, done: f64) {
+        self.bar.set_position(parts(done, self.total));
+        self.bar.reset_eta();
     }
 
     /// Moves to `done` of the total and shows a message: `"step 812, dt 2.9e-7 s"`. Outside 0…total the bar stays at its
@@ -78,17 +88,17 @@ fn parts(done: f64, total: f64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use std::io;
     use std::sync::{Arc, Mutex};
 
     /// A terminal that keeps all that was ever drawn on it.
     #[derive(Debug, Clone, Default)]
-    struct Terminal(Arc<Mutex<String>>);
+    pub(in crate::progress) struct Terminal(Arc<Mutex<String>>);
 
     impl Terminal {
-        fn drawn(&self) -> String {
+        pub(in crate::progress) fn drawn(&self) -> String {
             self.0.lock().unwrap().clone()
         }
     }

@@ -144,3 +144,32 @@ fn what_is_wrong_is_named() {
     let error = Table::read("no/such.csv").unwrap_err();
     assert!(error.to_string().contains("no/such.csv"), "{error}");
 }
+
+#[test]
+fn columns_become_a_table_or_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("curve.csv");
+    let columns = [
+        ("delta [m]", vec![1e-6, 2e-6]),
+        ("force [N]", vec![120.0, f64::NAN]),
+    ];
+    Table::from_columns(columns).unwrap().write(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    assert_eq!(text, "delta [m],force [N]\n1e-6,120\n2e-6,NaN\n");
+    let ragged = Table::from_columns([("a", vec![1.0]), ("b", vec![])]);
+    assert!(matches!(
+        ragged,
+        Err(TableError::Length {
+            found: 0,
+            expected: 1,
+            ..
+        })
+    ));
+    let twice = Table::from_columns([("a [m]", [1.0]), ("a [N]", [1.0])]);
+    assert!(matches!(twice, Err(TableError::Duplicate { .. })));
+    let none: [(&str, [f64; 0]); 0] = [];
+    assert!(matches!(
+        Table::from_columns(none),
+        Err(TableError::Unnamed { .. })
+    ));
+}

@@ -61,6 +61,16 @@ impl Biot {
         second_piola.congruence(&self.deformation_gradient) / self.jacobian
     }
 
+    /// The stress `T` conjugate to the strain from the Cauchy stress: `cauchy` inverted.
+    pub fn conjugate(&self, cauchy: &Sym) -> Sym {
+        // Rᵀ·J·σ·R = U·S·U; the Lyapunov equation is undone by T = (U·S + S·U)/2.
+        let Some(inverse) = self.deformation_gradient.try_inverse() else {
+            return Sym::ZERO; // not reached: `new` refused a singular gradient
+        };
+        let second_piola = cauchy.congruence(&inverse).to_matrix() * self.jacobian;
+        Sym::from_matrix(&(self.stretch.to_matrix() * second_piola))
+    }
+
     /// Spatial tangent (see [`Material::tangent`](crate::Material::tangent)) from `∂T/∂E`.
     ///
     /// Each column follows a perturbation `d`: `δC = 2FᵀdF`, `δU` from `U·δU + δU·U = δC`,
@@ -75,5 +85,11 @@ impl Biot {
             let right_side = modulus.apply(&stretch_rate) * 2.0 - coupling;
             solve_lyapunov(&self.stretch, &right_side).congruence(f) / self.jacobian
         })
+    }
+
+    /// Spatial tangent of a stress `T` that changes along one tensor, by a rate linear in `d`.
+    pub(crate) fn spatial_rate(&self, along: &Sym, rate: impl Fn(&Sym) -> f64) -> Tangent {
+        let spatial = self.cauchy(along);
+        Tangent::from_columns(|d| spatial * rate(d))
     }
 }

@@ -1,8 +1,8 @@
 //! What a law that cracks also says, so that measures and contract checks can look inside.
 
-use fissure_tensor::{Sym, Vector3};
+use fissure_tensor::{Matrix3, Sym, Vector3};
 
-use crate::{Material, Scale};
+use crate::{Biot, Material, MaterialError, Scale};
 
 /// Where and how strongly a stress state asks for a crack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,30 @@ pub trait Cracking: Material {
 
     /// Largest band with a unique response, m [Sanchez 2010, eq. 4.5.17].
     fn band_limit(&self, scale: &Scale) -> f64;
+
+    /// The stress that cracks are judged by, in the reference axes, from the Cauchy stress.
+    ///
+    /// The default is the stress conjugate to the Biot strain; a small-strain law has the same to
+    /// first order.
+    ///
+    /// # Errors
+    /// [`MaterialError::Deformation`].
+    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
+        Ok(Biot::new(f)?.conjugate(cauchy))
+    }
+
+    /// The failure function in one direction; `None` if the law lets no crack start there.
+    ///
+    /// The default is Rankine's, normal traction over strength less 1.
+    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        Some(stress.normal_component(normal) / self.strength(scale) - 1.0)
+    }
+
+    /// Whether the flow follows from the failure function, so that the tangent is symmetric while
+    /// the crack's direction and band are fixed.
+    fn associated(&self) -> bool {
+        true
+    }
 
     /// The failure function maximised over the directions the law considers.
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation;

@@ -21,6 +21,7 @@ use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
     softening::{Linear, opening},
+    turning::Turning,
 };
 
 const NAME: &str = "elastic-decohesive law";
@@ -116,23 +117,26 @@ impl<S: Softening> Decohesive<S> {
         kinematics: &Biot,
         band: &Band,
         old: &DecohesiveState,
-    ) -> Step {
+    ) -> Result<Step, MaterialError> {
         let uncracked = point.elastic.stress(&kinematics.strain());
         let mut state = *old;
         let mut started = false;
         if state.width == 0.0 {
             match self.onset(point, &uncracked) {
                 None => {
-                    return Step {
+                    return Ok(Step {
                         biot_stress: uncracked,
                         state,
                         moving: None,
                         started,
-                    };
+                    });
                 }
                 Some(normal) => {
                     state.normal = normal.into();
                     state.width = band.width(&(kinematics.rotation * normal));
+                    // The door saw neither this rotation nor, for a band with an edge of zero,
+                    // this normal.
+                    point.check_width(state.width)?;
                     started = true;
                 }
             }
@@ -140,16 +144,34 @@ impl<S: Softening> Decohesive<S> {
         let normal = Vector3::from(state.normal);
         let moving = point.open(&mut state, uncracked.normal_component(&normal));
         let crack_strain = Sym::dyad(&normal) * (state.opening / state.width);
-        Step {
+        Ok(Step {
             biot_stress: uncracked - point.elastic.stress(&crack_strain),
             state,
             moving,
             started,
-        }
+        })
     }
 }
 
 impl<S: Softening> Point<'_, S> {
+    /// Largest band with a unique response, m (eq. 4.5.17).
+    fn band_limit(&self) -> f64 {
+        self.elastic.p_wave_modulus() * self.toughness
+            / (self.strength * self.strength * self.softening.steepest())
+    }
+
+    fn check_width(&self, width: f64) -> Result<(), MaterialError> {
+        let limit = self.band_limit();
+        if width > 0.0 && width < limit {
+            return Ok(());
+        }
+        Err(MaterialError::Band {
+            law: NAME,
+            width,
+            limit,
+        })
+    }
+
     /// Moves the opening for the normal traction `uncracked` that the strain would give without
     /// the crack. Returns the slope of the traction over the opening if it moved.
     fn open(&self, state: &mut DecohesiveState, uncracked: f64) -> Option<f64> {
@@ -212,16 +234,7 @@ impl<S: Softening> Material for Decohesive<S> {
             Normal::Prescribed(normal) => band.width(&normal.normalize()),
             Normal::Rankine => band.max_width(),
         };
-        let limit = self.band_limit(scale);
-        if width > 0.0 && width < limit {
-            Ok(())
-        } else {
-            Err(MaterialError::Band {
-                law: NAME,
-                width,
-                limit,
-            })
-        }
+        self.point(scale).check_width(width)
     }
 
     fn isotropic(&self) -> bool {
@@ -245,7 +258,7 @@ impl<S: Softening> Material for Decohesive<S> {
     ) -> Result<Response<DecohesiveState>, MaterialError> {
         let point = self.point(&increment.external.scale);
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&point, &kinematics, &increment.band, old);
+        let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
     }
 
@@ -264,22 +277,28 @@ impl<S: Softening> Material for Decohesive<S> {
     ) -> Result<(Response<DecohesiveState>, Tangent), MaterialError> {
         let point = self.point(&increment.external.scale);
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&point, &kinematics, &increment.band, old);
+        let step = self.step(&point, &kinematics, &increment.band, old)?;
         let mut modulus = point.elastic.stiffness();
+        let mut widening = Tangent::zero();
         if let Some(slope) = step.moving {
             let normal = Vector3::from(step.state.normal);
             let direction = point.elastic.stress(&Sym::dyad(&normal));
             let factor = point.elastic.p_wave_modulus() + slope * step.state.width;
             modulus = modulus - Tangent::dyad(&direction, &direction) * (1.0 / factor);
-            if step.started && self.normal == Normal::Rankine {
-                let turning = turning_normal(&point.elastic, &kinematics.strain(), &normal);
+            if step.started {
+                let turning = match self.normal {
+                    Normal::Rankine => Turning::principal(&kinematics.strain(), &normal),
+                    Normal::Prescribed(_) => Turning::fixed(&normal),
+                };
                 let crack_strain = step.state.opening / step.state.width;
-                let widening = widening_band(&increment.band, &kinematics, &normal);
-                modulus = modulus - turning * crack_strain
-                    + Tangent::dyad(&direction, &widening) * (slope * crack_strain / factor);
+                modulus = modulus - turning.of_crack_stress(&point.elastic) * crack_strain;
+                let per_width = direction * (slope * crack_strain / factor);
+                widening = kinematics.spatial_rate(&per_width, |d| {
+                    turning.of_width(&increment.band, &kinematics, d)
+                });
             }
         }
-        let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus);
+        let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus) + widening;
         Ok((point.response(&kinematics, &step, old), tangent))
     }
 
@@ -314,44 +333,6 @@ impl<S: Softening> Point<'_, S> {
     }
 }
 
-/// Derivative of `C:(n⊗n)` with the strain while `n` is the first principal direction: in the step
-/// in which a crack starts its normal still follows the strain,
-/// `d(n⊗n) = Σ_j (n·dε·m_j)/(ε_n − ε_j) (n⊗m_j + m_j⊗n)`. Coinciding strains are left out: there
-/// the direction is not differentiable.
-fn turning_normal(elastic: &Isotropic, strain: &Sym, normal: &Vector3<f64>) -> Tangent {
-    let spectrum = strain.spectrum();
-    let mut turning = Tangent::zero();
-    for j in 1..3 {
-        let gap = spectrum.values[0] - spectrum.values[j];
-        if gap > 1e-8 * strain.max_abs() {
-            let mixed = Sym::dyad_of(normal, &spectrum.vectors[j]);
-            let stress = mixed * (2.0 * elastic.shear_modulus());
-            turning = turning + Tangent::dyad(&stress, &mixed) * (2.0 / gap);
-        }
-    }
-    turning
-}
-
-/// Derivative of the width of the band with the strain in the step in which a crack starts: the
-/// normal turns as in [`turning_normal`]. That the rotation changes too is left out, an effect
-/// smaller by the strain squared.
-fn widening_band(band: &Band, kinematics: &Biot, normal: &Vector3<f64>) -> Sym {
-    const ANGLE: f64 = 1e-6;
-    let strain = kinematics.strain();
-    let spectrum = strain.spectrum();
-    let width = |n: Vector3<f64>| band.width(&(kinematics.rotation * n));
-    let mut widening = Sym::ZERO;
-    for j in 1..3 {
-        let gap = spectrum.values[0] - spectrum.values[j];
-        if gap > 1e-8 * strain.max_abs() {
-            let other = spectrum.vectors[j] * ANGLE;
-            let slope = (width(normal + other) - width(normal - other)) / (2.0 * ANGLE);
-            widening += Sym::dyad_of(normal, &spectrum.vectors[j]) * (slope / gap);
-        }
-    }
-    widening
-}
-
 impl<S: Softening> Cracking for Decohesive<S> {
     fn toughness(&self, scale: &Scale) -> f64 {
         self.toughness * scale.toughness
@@ -366,9 +347,7 @@ impl<S: Softening> Cracking for Decohesive<S> {
     }
 
     fn band_limit(&self, scale: &Scale) -> f64 {
-        let strength = self.strength(scale);
-        self.elastic.scaled(scale).p_wave_modulus() * self.toughness(scale)
-            / (strength * strength * self.softening.steepest())
+        self.point(scale).band_limit()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
@@ -386,6 +365,14 @@ impl<S: Softening> Cracking for Decohesive<S> {
             value: traction / self.strength(scale) - 1.0,
             normal,
         }
+    }
+
+    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        let considered = match self.normal {
+            Normal::Rankine => true,
+            Normal::Prescribed(only) => only.normalize().cross(normal).norm() <= 1e-12,
+        };
+        considered.then(|| stress.normal_component(normal) / self.strength(scale) - 1.0)
     }
 
     fn cracks(&self, state: &DecohesiveState) -> Vec<Crack> {

@@ -33,6 +33,7 @@ mod point;
 pub mod softening;
 #[cfg(test)]
 mod testing;
+mod turning;
 
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};

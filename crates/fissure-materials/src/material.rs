@@ -96,7 +96,7 @@ pub trait Material: Send + Sync + 'static {
     /// # Errors
     /// As `update`.
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
-        difference_tangent(self, increment, old, 1e-6)
+        difference_tangent(self, increment, old, DIFFERENCE_STEP)
     }
 
     /// Both at once, for laws that share work between them.
@@ -119,6 +119,9 @@ pub trait Material: Send + Sync + 'static {
         None
     }
 }
+
+/// Relative step of the default tangent.
+pub(crate) const DIFFERENCE_STEP: f64 = 1e-6;
 
 /// The tangent of [`Material::tangent`] by central differences with relative step `step`.
 ///

@@ -1,8 +1,16 @@
 //! Every law passes the battery; deliberately broken ones fail it by the right name.
 
+mod broken;
+
+use std::sync::atomic::AtomicU64;
+
 use fissure_materials::{
-    Decohesive, Isotropic, Material, Normal, Vector3, contract, softening::Linear,
+    Band, Cracking, Decohesive, Increment, Isotropic, Material, MaterialError, Matrix3, Normal,
+    Vector3,
+    contract::{self, Contract, Summary, Violation},
+    softening::Linear,
 };
+use fissure_tensor::rotation;
 
 const CONCRETE: Isotropic = Isotropic {
     density: 2350.0,
@@ -22,7 +30,30 @@ fn decohesive(normal: Normal) -> Decohesive {
 
 fn passes(law: &impl Material) {
     let message = contract::check(law).err().map(|v| v.to_string());
-    assert_eq!(message, None);
+    assert_eq!(message.unwrap_or_default(), "");
+}
+
+fn passes_cracking(law: &impl Cracking) {
+    let message = contract::check_cracking(law).err().map(|v| v.to_string());
+    assert_eq!(message.unwrap_or_default(), "");
+}
+
+/// The law broke this property, and the message has what a user needs to act on it.
+fn breaks(outcome: Result<Summary, Violation>, property: &str) {
+    let violation = outcome.expect_err("a broken law passed");
+    assert_eq!(violation.property, property, "{violation}");
+    let message = violation.to_string();
+    for part in [
+        property,
+        "measured",
+        "bound",
+        "smallest failing case",
+        "seed",
+        "step 1",
+    ] {
+        assert!(message.contains(part), "'{part}' is missing in: {message}");
+    }
+    assert!(violation.case.steps.len() <= 3, "{violation}");
 }
 
 #[test]
@@ -31,13 +62,163 @@ fn isotropic_elasticity_passes() {
 }
 
 #[test]
-fn decohesive_rankine_passes() {
+fn decohesive_passes_as_any_law() {
     passes(&decohesive(Normal::Rankine));
 }
 
 #[test]
-fn decohesive_with_a_prescribed_normal_passes() {
-    passes(&decohesive(Normal::Prescribed(Vector3::new(
-        1.0, 2.0, -0.5,
-    ))));
+fn decohesive_with_rankine_passes() {
+    passes_cracking(&decohesive(Normal::Rankine));
+}
+
+#[test]
+fn decohesive_with_prescribed_normals_passes() {
+    for normal in [Vector3::x(), Vector3::new(1.0, 2.0, -0.5)] {
+        passes_cracking(&decohesive(Normal::Prescribed(normal)));
+    }
+}
+
+#[test]
+fn decohesive_passes_for_given_bands() {
+    let law = decohesive(Normal::Rankine);
+    let limit = law.band_limit(&Default::default());
+    for band in [
+        Band::Uniform(0.99 * limit),
+        Band::Uniform(0.5 * limit),
+        Band::Projected([0.01, 0.01, 0.0]),
+        Band::Section([0.02, 0.01, 0.0]),
+    ] {
+        let contract = Contract {
+            band: Some(band),
+            samples: 64,
+            ..Contract::default()
+        };
+        let message = contract.check_cracking(&law).err().map(|v| v.to_string());
+        assert_eq!(message.unwrap_or_default(), "");
+    }
+}
+
+#[test]
+fn any_seed_passes() {
+    for seed in 0..3 {
+        let contract = Contract {
+            seed,
+            step_error_steps: 100,
+            ..Contract::default()
+        };
+        let laws = [
+            Normal::Rankine,
+            Normal::Prescribed(Vector3::new(0.3, -1.0, 2.0)),
+        ];
+        for law in laws.map(decohesive) {
+            let message = contract.check_cracking(&law).err().map(|v| v.to_string());
+            assert_eq!(message.unwrap_or_default(), "");
+        }
+    }
+}
+
+#[test]
+fn cracking_is_exercised() {
+    let summary = contract::check_cracking(&decohesive(Normal::Rankine));
+    let summary = summary.expect("the law passes");
+    assert!(
+        summary.softened > 50 && summary.failed > 20,
+        "{} softened, {} failed",
+        summary.softened,
+        summary.failed
+    );
+    for tally in &summary.tallies {
+        let enough = tally.exercised >= 20 || tally.note.is_some();
+        assert!(enough, "{summary}");
+    }
+    assert!(summary.step_error < 1e-9, "{summary}");
+}
+
+#[test]
+fn a_wrong_tangent_is_found() {
+    let law = broken::WrongTangent(decohesive(Normal::Rankine));
+    breaks(contract::check(&law), "P3 tangent");
+}
+
+#[test]
+fn negative_dissipation_is_found() {
+    let law = broken::NegativeDissipation(decohesive(Normal::Rankine));
+    breaks(contract::check(&law), "P6 dissipation");
+}
+
+#[test]
+fn a_law_that_is_not_objective_is_found() {
+    let law = broken::NotObjective(decohesive(Normal::Rankine));
+    breaks(contract::check(&law), "P9 objectivity");
+}
+
+#[test]
+fn a_wrong_fracture_energy_is_found() {
+    let law = broken::WrongFractureEnergy(decohesive(Normal::Rankine));
+    breaks(contract::check_cracking(&law), "P8 fracture energy");
+}
+
+#[test]
+fn hidden_state_is_found() {
+    let law = broken::HiddenState(decohesive(Normal::Rankine), AtomicU64::new(0));
+    breaks(contract::check(&law), "P22 determinism");
+}
+
+#[test]
+fn every_small_fault_is_found_by_its_property() {
+    use broken::Fault;
+    for (fault, normal, property) in [
+        (Fault::CreepingState, Normal::Rankine, "P1 zero increment"),
+        (
+            Fault::ClaimsIsotropy,
+            Normal::Prescribed(Vector3::x()),
+            "P10 isotropy",
+        ),
+        (Fault::AbsolutePressure, Normal::Rankine, "P19 units"),
+        (Fault::Time, Normal::Rankine, "P12 sub-step convergence"),
+        (
+            Fault::FallingIrreversible,
+            Normal::Rankine,
+            "P7 irreversibility",
+        ),
+        (Fault::UnderstatedRatio, Normal::Rankine, "P5 consistency"),
+        (Fault::WrongOpening, Normal::Rankine, "P14 crack strain"),
+        (Fault::TurnedNormal, Normal::Rankine, "P18 initiation"),
+        (Fault::WideLimit, Normal::Rankine, "P24 band validation"),
+        (Fault::SlowWave, Normal::Rankine, "P24 validation"),
+        (Fault::LateOnset, Normal::Rankine, "P5 consistency"),
+    ] {
+        let law = broken::Faulty(decohesive(normal), fault);
+        let contract = Contract {
+            step_error_steps: 50,
+            ..Contract::default()
+        };
+        let name = contract.check_cracking(&law).map_err(|v| v.property);
+        assert_eq!(name.err(), Some(property), "{fault:?}");
+    }
+}
+
+#[test]
+fn a_rotated_crack_over_a_band_that_is_too_wide_is_refused() {
+    // The door sees the width along the prescribed normal; turned by 45° the band is wider.
+    let law = decohesive(Normal::Prescribed(Vector3::x()));
+    let edge = 0.8 * law.band_limit(&Default::default());
+    let band = Band::Projected([edge, edge, 0.0]);
+    assert_eq!(law.check_band(&band, &Default::default()), Ok(()));
+    let stretch = Matrix3::from_diagonal(&Vector3::new(1.001, 1.0, 1.0));
+    let turn = rotation(&Vector3::z(), std::f64::consts::FRAC_PI_4);
+    let along = Increment {
+        band,
+        ..Increment::to(stretch)
+    };
+    let turned = along.with_end(turn * stretch);
+    let virgin = law.initial();
+    assert!(law.update(&along, &virgin).is_ok());
+    let refused = law.update(&turned, &virgin);
+    assert!(matches!(refused, Err(MaterialError::Band { .. })));
+    // So is a crack across a direction in which the band has no width at all.
+    let rankine = decohesive(Normal::Rankine);
+    let out_of_plane = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 1.001));
+    let refused = rankine.update(&along.with_end(out_of_plane), &virgin);
+    assert!(matches!(refused, Err(MaterialError::Band { .. })));
 }

@@ -5,10 +5,11 @@
 //! prints the rows.
 
 pub mod framework;
+pub mod tensile_bar;
 
 use framework::Study;
 
 /// Every study of the binary, in the order of `--list`.
 pub fn studies() -> Vec<Box<dyn Study>> {
-    Vec::new()
+    vec![Box::new(tensile_bar::TensileBar)]
 }

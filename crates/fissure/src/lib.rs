@@ -1,5 +1,41 @@
 //! Material failure with particle methods: the facade crate.
+//!
+//! One name for the whole workspace: each member is a module here, and [`prelude`] holds what a
+//! simulation names. A law is a pure function ([`materials`]); a body is particles and one law, a
+//! scene is bodies and what holds them ([`scene`]); a solver owns a grid and moves a scene by one
+//! step ([`solvers`]); a watch looks at it after each step ([`diagnostics`], [`io`]).
+//!
+//! An elastic bar is pulled at one end:
+//!
+//! ```
+//! use fissure::prelude::*;
+//!
+//! # fn main() -> Result<(), Error> {
+//! let steel = Isotropic { density: 7800.0, young: 210e9, poisson: 0.0 };
+//! let mut scene = Scene::plane(Plane::Strain { thickness: 0.01 });
+//! scene
+//!     .fill("bar", steel, &Block::new([0.0, 0.0], [0.2, 0.02]), &Spacing(5e-3))?
+//!     .rigid("left", &Block::new([-0.01, 0.0], [0.0, 0.02]), &Spacing(5e-3),
+//!            Hold::Component(Vector2::x()), Velocity(|_| 0.0))?
+//!     .rigid("right", &Block::new([0.2, 0.0], [0.21, 0.02]), &Spacing(5e-3),
+//!            Hold::Component(Vector2::x()), Velocity(|_| 1e-6))?;
+//!
+//! let grid = Grid::over([-0.04, -0.04], [0.24, 0.06], 0.01)?;
+//! let mut solver = QuasiStatic::new(grid, shape::Linear, QuasiStaticSettings::default())?;
+//! run(&mut scene, &mut solver, Until::Time(1.0), &mut [])?;
+//!
+//! // E·A·δ/L, but for what the strain of 5e-6 does to the lengths.
+//! let force = scene.reaction("right").map_or(f64::NAN, |r| r[0]);
+//! assert!((force / (210e9 * 0.01 * 0.02 * 1e-6 / 0.2) - 1.0).abs() < 1e-4);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The numbered examples beside this crate go on from here: `cargo run -p fissure --example 00_point`.
 
+mod error;
+
+pub use error::Error;
 pub use fissure_diagnostics as diagnostics;
 pub use fissure_grid as grid;
 pub use fissure_io as io;
@@ -12,10 +48,16 @@ pub use nalgebra;
 
 /// Everything a simulation names.
 pub mod prelude {
+    pub use crate::Error;
+    pub use fissure_diagnostics::{
+        EnergyBalance, EnergyHistory, FailedZone, LoadCurve, LoadDisplacement, Record,
+        SectionForce, curve_error, fit_slope, section_force, state_hash,
+    };
     pub use fissure_grid::{Grid, Shape, shape};
     pub use fissure_materials::{
-        Cracking, Decohesive, Increment, Isotropic, Material, MaterialError, Normal, Response,
-        Scale, Softening, softening,
+        Axis, Biot, Control, Crack, Cracking, Decohesive, External, Hencky, Increment, Isotropic,
+        Material, MaterialError, NeoHookean, Normal, Path, PlaneStress, Point, Response, Sample,
+        Scale, Softening, check_parameter, contract, softening,
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;
@@ -23,6 +65,6 @@ pub mod prelude {
         BandSource, Explicit, ExplicitSettings, QuasiStatic, QuasiStaticSettings, StressUpdate,
         Transfer,
     };
-    pub use fissure_tensor::{Band, Matrix3, Sym, Vector3};
-    pub use nalgebra::{Vector2, vector};
+    pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
+    pub use nalgebra::{SVector, Vector2, vector};
 }

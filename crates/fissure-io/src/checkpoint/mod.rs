@@ -13,19 +13,28 @@
 //! | … | header in postcard: per section its name, content, length and xxh3 |
 //! | … | the sections, back to back, in the header's order |
 //!
+//! A scene is saved and loaded in one call by [`Checkpoint`], and every so many steps by [`AutoCheckpoint`]; other things
+//! go through [`CheckpointWriter`] and [`CheckpointReader`].
+//!
 //! All numbers are little-endian; floats keep their bits (NaN payloads and the sign of zero included).
 
+mod auto;
 mod element;
 mod format;
 mod reader;
+mod scene;
 mod writer;
 
 use std::path::PathBuf;
 
+pub use auto::AutoCheckpoint;
 pub use element::Element;
 pub use format::Content;
 pub use reader::CheckpointReader;
+pub use scene::Checkpoint;
 pub use writer::CheckpointWriter;
+
+use fissure_scene::PersistError;
 
 use crate::FileError;
 
@@ -147,5 +156,14 @@ pub enum CheckpointError {
         /// What postcard says.
         #[source]
         source: postcard::Error,
+    },
+    /// The scene could not be saved, or the checkpoint is of another scene than this.
+    #[error("'{}' and the scene do not fit", path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// What the scene says.
+        #[source]
+        source: PersistError,
     },
 }

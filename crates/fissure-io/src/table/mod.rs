@@ -52,6 +52,16 @@ pub enum TableError {
         /// Columns of the table.
         expected: usize,
     },
+    /// Columns that are to be a table have not the same length.
+    #[error("column '{column}' has {found} rows, the first has {expected}")]
+    Length {
+        /// The column's name.
+        column: String,
+        /// Rows it has.
+        found: usize,
+        /// Rows the first column has.
+        expected: usize,
+    },
     /// There is no column of that name.
     #[error("'{}' has no column '{column}'; it has {}", path.display(), present.join(", "))]
     Missing {

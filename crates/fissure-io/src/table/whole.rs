@@ -49,6 +49,50 @@ impl Table {
         })
     }
 
+    /// A table of numbers, column by column: what a history keeps. The columns are pairs of a label, with the unit in
+    /// brackets, and numbers.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), fissure_io::table::TableError> {
+    /// use fissure_io::table::Table;
+    ///
+    /// let (time, force) = ([1e-6, 2e-6], [120.0, 235.5]);
+    /// let table = Table::from_columns([("time [s]", &time), ("force [N]", &force)])?;
+    /// assert_eq!((table.len(), table.numbers("force")?), (2, force.to_vec()));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`TableError::Unnamed`], [`TableError::Duplicate`], and [`TableError::Length`] if a column is not as long as the
+    /// first.
+    pub fn from_columns<L: AsRef<str>, V: AsRef<[f64]>>(
+        columns: impl IntoIterator<Item = (L, V)>,
+    ) -> Result<Self, TableError> {
+        let (labels, columns): (Vec<L>, Vec<V>) = columns.into_iter().unzip();
+        let header = Header::new(&labels)?;
+        let length = columns.first().map_or(0, |column| column.as_ref().len());
+        for (name, column) in header.names().zip(&columns) {
+            if column.as_ref().len() != length {
+                return Err(TableError::Length {
+                    column: name.to_owned(),
+                    found: column.as_ref().len(),
+                    expected: length,
+                });
+            }
+        }
+        let cell = |i: usize| move |column: &V| Cell::Number(column.as_ref()[i]);
+        let row = |i: usize| Row {
+            line: i as u64 + 2,
+            cells: columns.iter().map(cell(i)).collect(),
+        };
+        Ok(Self {
+            label: PathBuf::from("table"),
+            header,
+            rows: (0..length).map(row).collect(),
+        })
+    }
+
     /// Adds a row.
     ///
     /// # Errors

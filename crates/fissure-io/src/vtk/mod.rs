@@ -1,5 +1,7 @@
 //! Particles for ParaView: one `.vtu` per frame and a `.pvd` that lists them with their times.
 //!
+//! [`ParticleSeries`] writes a running scene; [`PointCloud`] and [`Series`] write columns from anywhere.
+//!
 //! Every particle is a `VTK_VERTEX` cell. Numbers are appended as raw bytes with 64-bit headers, `f64` throughout, so that
 //! a frame holds the simulation's bits; [`Compression::Lz4`] packs them in blocks, which pays for columns that are mostly
 //! constant (damage, ids of bodies) and little for noisy ones. Files are replaced in one piece, so a viewer that watches a
@@ -8,12 +10,15 @@
 mod appended;
 mod cloud;
 mod document;
+mod fields;
+mod particles;
 mod series;
 
 use std::path::PathBuf;
 
 pub use appended::Compression;
 pub use cloud::PointCloud;
+pub use particles::ParticleSeries;
 pub use series::Series;
 
 use crate::FileError;

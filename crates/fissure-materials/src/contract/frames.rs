@@ -114,7 +114,7 @@ fn compare<M: Material>(
 }
 
 /// `F` with every entry moved by a few units in the last place of 1.
-fn perturbed(f: &Matrix3<f64>, sign: f64) -> Matrix3<f64> {
+pub(super) fn perturbed(f: &Matrix3<f64>, sign: f64) -> Matrix3<f64> {
     const PATTERN: [f64; 9] = [1.0, -0.6, 0.3, 0.8, -1.0, 0.5, -0.4, 0.7, 0.9];
     f + Matrix3::from_column_slice(&PATTERN) * (sign * 1e-15)
 }

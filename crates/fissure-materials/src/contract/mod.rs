@@ -16,6 +16,11 @@
 
 mod case;
 mod continuity;
+mod cracking_bounds;
+mod cracking_energy;
+mod cracking_initiation;
+mod cracking_kinematics;
+mod cracking_tangent;
 mod dissipation;
 mod frames;
 mod gauge;
@@ -23,6 +28,8 @@ mod generator;
 mod report;
 mod runner;
 mod shrink;
+#[cfg(feature = "proptest")]
+pub mod strategies;
 mod subject;
 mod substeps;
 mod tangent;
@@ -36,7 +43,7 @@ pub use case::{Case, Step};
 pub use generator::Random;
 pub use report::{Summary, Tally, Violation};
 
-use crate::{Material, MaterialError};
+use crate::{Cracking, Material, MaterialError, Scale};
 use runner::{Property, run};
 use subject::Subject;
 
@@ -46,6 +53,15 @@ use subject::Subject;
 /// The first property that does not hold, with the smallest case found.
 pub fn check<M: Material>(law: &M) -> Result<Summary, Violation> {
     Contract::default().check(law)
+}
+
+/// Checks a law that cracks with the default [`Contract`]: what [`check`] does, and P4, P5, P7, P8,
+/// P13-P18.
+///
+/// # Errors
+/// The first property that does not hold, with the smallest case found; or that no crack softened.
+pub fn check_cracking<M: Cracking>(law: &M) -> Result<Summary, Violation> {
+    Contract::default().check_cracking(law)
 }
 
 /// How a law is checked.
@@ -87,6 +103,37 @@ impl Contract {
         Ok(summary)
     }
 
+    /// Checks what a law that cracks has to satisfy: what [`check`](Self::check) does, and P4, P5,
+    /// P7, P8, P13-P18.
+    ///
+    /// # Errors
+    /// The first property that does not hold, with the smallest case found; or that no crack
+    /// softened.
+    pub fn check_cracking<M: Cracking>(&self, law: &M) -> Result<Summary, Violation> {
+        let subject = Subject::cracking(law, self).map_err(|error| self.refused(&error))?;
+        let mut summary = Summary::default();
+        self.run_all(&general(), &subject, &mut summary)?;
+        self.run_all(&cracking(), &subject, &mut summary)?;
+        let fails = law.critical_opening(&Scale::default()).is_finite();
+        if summary.softened == 0 || (fails && summary.failed == 0) {
+            let reason = format!(
+                "{} cracks softened and {} failed, in histories drawn up to beyond the critical \
+                 opening: strength or critical opening are not those of the law",
+                summary.softened, summary.failed
+            );
+            return Err(self.without_case("P7 irreversibility", reason));
+        }
+        summary.tallies.push(Tally {
+            property: "P17 order of cracks",
+            exercised: 0,
+            skipped: 0,
+            refused: 0,
+            worst: 0.0,
+            note: Some("a state is opaque, its cracks cannot be exchanged; P16 judges each crack"),
+        });
+        Ok(summary)
+    }
+
     fn run_all<M: Material>(
         &self,
         properties: &[Property<M>],
@@ -100,12 +147,21 @@ impl Contract {
 
     /// The law refuses its own parameters, the band asked for, or a small strain.
     fn refused(&self, error: &MaterialError) -> Violation {
+        self.without_case(
+            "P24 validation",
+            format!("the law refuses to start: {error}"),
+        )
+    }
+
+    /// A violation that needs no input.
+    fn without_case(&self, property: &'static str, explanation: String) -> Violation {
+        let band = self.band.unwrap_or(Band::Uniform(1.0));
         Violation {
-            property: "P24 validation",
+            property,
             measured: f64::NAN,
             bound: 0.0,
-            case: Box::new(Case::straight([], self.band.unwrap_or(Band::Uniform(1.0)))),
-            explanation: format!("the law refuses to start: {error}"),
+            case: Box::new(Case::straight([], band)),
+            explanation,
             seed: self.seed,
             sample: 0,
         }
@@ -127,5 +183,24 @@ fn general<M: Material>() -> Vec<Property<M>> {
         substeps::convergence(),
         units::units(),
         substeps::isoerror(),
+    ]
+}
+
+/// Irreversibility first, since it counts the histories that cracked.
+fn cracking<M: Cracking>() -> Vec<Property<M>> {
+    vec![
+        cracking_energy::band_validation(),
+        cracking_bounds::irreversibility(),
+        cracking_energy::fracture_energy(),
+        cracking_bounds::consistency(),
+        cracking_bounds::traction_bound(),
+        cracking_initiation::initiation(),
+        cracking_initiation::initiation_finely(),
+        cracking_initiation::objectivity(),
+        cracking_tangent::symmetry(),
+        cracking_tangent::slope(),
+        cracking_tangent::unloading(),
+        cracking_kinematics::crack_strain(),
+        cracking_kinematics::closure(),
     ]
 }

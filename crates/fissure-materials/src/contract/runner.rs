@@ -43,11 +43,12 @@ pub(super) fn run<M: Material>(
         let case = (property.draw)(subject, &mut random);
         match (property.judge)(subject, &case) {
             Err(_) => tally.refused += 1,
-            Ok(gauge) if gauge.failure.is_some() => {
-                return Err(violation(property, subject, contract, case, sample));
-            }
             Ok(gauge) if gauge.count == 0 => tally.skipped += 1,
             Ok(gauge) => {
+                if let Some(failure) = gauge.failure {
+                    let first = (case, failure);
+                    return Err(violation(property, subject, contract, first, sample));
+                }
                 tally.exercised += 1;
                 tally.worst = tally.worst.max(gauge.worst);
                 summary.softened += usize::from(gauge.softened);
@@ -82,20 +83,19 @@ fn violation<M: Material>(
     property: &Property<M>,
     subject: &Subject<M>,
     contract: &Contract,
-    case: Case,
+    (case, first): (Case, Failure),
     sample: usize,
 ) -> Violation {
     let failure = |case: &Case| (property.judge)(subject, case).ok()?.failure;
     let case = shrink(case, |case| failure(case).is_some());
-    // A law with hidden state may pass when asked again: say so instead of inventing numbers.
+    // A law with hidden state may pass when asked again: say so, with the first numbers.
     let Failure {
         measured,
         bound,
         what,
     } = failure(&case).unwrap_or(Failure {
-        measured: f64::NAN,
-        bound: 0.0,
         what: "failed once and passed when repeated: the law is not a pure function",
+        ..first
     });
     Violation {
         property: property.name,

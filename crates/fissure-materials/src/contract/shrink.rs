@@ -1,6 +1,6 @@
 //! The halving shrinker: the smallest case that still fails.
 
-use fissure_tensor::{Sym, Vector3};
+use fissure_tensor::{Band, Sym, Vector3};
 
 use super::{Case, case::Step};
 
@@ -67,7 +67,8 @@ fn drop_steps(best: &mut Case, try_case: &mut impl FnMut(Case, &mut Case) -> boo
 }
 
 /// Each makes a case simpler at one step, or as a whole.
-const EDITS: [fn(&mut Case, usize); 9] = [
+const EDITS: [fn(&mut Case, usize); 10] = [
+    |case, _| case.band = Band::Uniform(case.band.max_width()),
     |case, _| case.turn = Vector3::zeros(),
     |case, _| case.exponent = 0,
     |case, i| with_step(case, i, |step| step.spin = Vector3::zeros()),
@@ -108,7 +109,6 @@ fn halved(vector: Vector3<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fissure_tensor::Band;
 
     #[test]
     fn a_threshold_is_found_within_a_factor_of_two() {

@@ -3,7 +3,8 @@
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 
 use super::{Case, Contract, Random, case::Step};
-use crate::{External, Increment, Material, MaterialError, Response, Scale};
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::{Cracking, External, Increment, Material, MaterialError, Response, Scale};
 
 /// A law and what the generator has to know of it.
 pub(super) struct Subject<'a, M> {
@@ -145,6 +146,17 @@ impl<'a, M: Material> Subject<'a, M> {
         Ok(Some((self.increment(*from, *to, &case.band), state)))
     }
 
+    /// Whether a tangent is the default one by plain differences, which is as good as the update
+    /// but resolves no bend sharper than its step.
+    pub fn is_default_tangent(
+        &self,
+        increment: &Increment,
+        old: &M::State,
+        tangent: &Tangent,
+    ) -> bool {
+        difference_tangent(self.law, increment, old, DIFFERENCE_STEP).is_ok_and(|t| t == *tangent)
+    }
+
     /// A band: the one asked for, else of any kind and down to a thousandth of the widest.
     pub fn draw_band(&self, random: &mut Random) -> Band {
         if let Some(band) = self.band {
@@ -171,7 +183,12 @@ impl<'a, M: Material> Subject<'a, M> {
             random.log_uniform(1e-12, self.reach)
         } else if self.opening > 0.0 && self.opening.is_finite() {
             let failure = self.natural + self.opening / band.max_width();
-            random.log_uniform(0.5 * self.natural, (1.5 * failure).min(0.2))
+            let most = (1.5 * failure).min(0.2);
+            if random.chance(0.5) {
+                random.uniform(0.3, 1.0) * most
+            } else {
+                random.log_uniform(0.5 * self.natural, most)
+            }
         } else {
             random.log_uniform(0.1 * self.natural, (20.0 * self.natural).min(self.reach))
         };
@@ -202,6 +219,77 @@ impl<'a, M: Material> Subject<'a, M> {
         case.turn = random.turn();
         case.exponent = random.integer(1, 80) as i32 - 40;
         case
+    }
+}
+
+impl<'a, M: Cracking> Subject<'a, M> {
+    /// As [`new`](Self::new), with the scales that a law that cracks states itself.
+    pub fn cracking(law: &'a M, contract: &Contract) -> Result<Self, MaterialError> {
+        let mut subject = Self::new(law, contract)?;
+        let scale = Scale::default();
+        let strength = law.strength(&scale);
+        if contract.strain_scale.is_none() {
+            subject.natural = strength / subject.stiffness;
+        }
+        let critical = law.critical_opening(&scale);
+        let endless = 20.0 * law.toughness(&scale) / strength;
+        subject.opening = if critical.is_finite() {
+            critical
+        } else {
+            endless
+        };
+        let limit = law.band_limit(&scale);
+        if contract.band.is_none() && limit.is_finite() {
+            subject.width = limit;
+        }
+        Ok(subject)
+    }
+
+    /// `1 − width/limit`, what the conditioning of a crack's opening divides by; not below 0.01
+    /// for the widest bands drawn.
+    pub fn reserve(&self, width: f64) -> f64 {
+        1.0 - width / self.law.band_limit(&Scale::default())
+    }
+
+    /// The undamaged response to a path's end: the law with a strength out of reach. `None` if the
+    /// strength does not follow its scale.
+    pub fn undamaged(&self, f: &Matrix3<f64>, band: &Band) -> Option<Response<M::State>> {
+        let scale = Scale {
+            strength: 2.0_f64.powi(60),
+            ..Scale::default()
+        };
+        if self.law.strength(&scale) < 1e10 * self.law.strength(&Scale::default()) {
+            return None;
+        }
+        let mut increment = self.increment(Matrix3::identity(), *f, band);
+        increment.external.scale = scale;
+        self.law.update(&increment, &self.law.initial()).ok()
+    }
+
+    /// A crack opened in pure mode I to beyond failure in 1 to 1000 steps, with up to three cycles
+    /// of unloading, into compression too. No rotations: the crack's normal is the loaded one.
+    pub fn draw_opening(&self, random: &mut Random) -> Case {
+        let band = self.draw_band(random);
+        let strength = self.law.strength(&Scale::default());
+        let pull = Sym::dyad(&random.direction()) * strength;
+        let normal = self.law.initiation(&pull, &Scale::default()).normal;
+        let top = 1.2 * self.natural + 1.1 * self.opening / band.width(&normal);
+        let mut levels = Vec::new();
+        for _ in 0..random.integer(0, 3) {
+            let high = random.uniform(0.0, 1.0);
+            levels.extend([high, random.uniform(-0.2, high)]);
+        }
+        levels.push(1.0);
+        let steps = random.log_uniform(1.0, 1000.0) as usize;
+        let parts = (steps / levels.len()).max(1);
+        let mut strains = Vec::new();
+        let mut from = 0.0;
+        for level in levels {
+            let part = Sym::dyad(&normal) * (top * (level - from) / parts as f64);
+            strains.extend(std::iter::repeat_n(part, parts));
+            from = level;
+        }
+        Case::straight(strains, band)
     }
 }
 

@@ -37,6 +37,9 @@ pub struct QuasiStatic<S, const D: usize> {
     has_stepped: bool,
 }
 
+/// How often a Newton step is halved before it is taken as it is.
+const MAX_HALVINGS: usize = 4;
+
 /// Why an attempt at a step did not end in equilibrium.
 enum Failed {
     /// Residual over its scale after the last iteration.
@@ -157,7 +160,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         }
 
         tangents.resize(scene.bodies().len(), Vec::new());
-        let mut error = f64::INFINITY;
+        let mut before: Vec<SVector<f64, D>> = Vec::new();
+        let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
+        let mut halvings = 0;
         for iteration in 0..=settings.max_iterations {
             let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
                 .map_err(Failed::Refused)?;
@@ -165,11 +170,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 .map_err(|failed| off_grid(scene, failed))?;
             let (mut right, residual, reaction) = residual(freedoms, internal, external);
             *force_scale = force_scale.max(reaction);
-            error = if *force_scale > 0.0 {
-                residual / *force_scale
-            } else {
-                residual
-            };
+            error = residual
+                / if *force_scale > 0.0 {
+                    *force_scale
+                } else {
+                    1.0
+                };
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
             if placed && error <= settings.tolerance {
                 return Ok(Equilibrium {
@@ -182,6 +188,18 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             if iteration == settings.max_iterations || !error.is_finite() {
                 break;
             }
+            // A particle that jumps between loading and unloading can make full steps cycle: go
+            // half-way back, at most as often as pays.
+            if error > last && halvings < MAX_HALVINGS {
+                halvings += 1;
+                for (u, old) in displacement.iter_mut().zip(&before) {
+                    *u = (*u + old) * 0.5;
+                }
+                continue;
+            }
+            halvings = 0;
+            last = if iteration > 0 { error } else { f64::INFINITY };
+            before.clone_from(displacement);
             assembly
                 .solve(
                     scene,

@@ -27,7 +27,7 @@ pub fn combinations(
     check_declarations(&parameters).map_err(StudyError::Definition)?;
     let mut seen = HashSet::new();
     let mut combinations = Vec::new();
-    for case in study.default_cases(quick) {
+    for case in study.default_cases(settings, quick) {
         case.check(study.name(), &parameters)
             .map_err(StudyError::Definition)?;
         for combination in product(&parameters, &case, settings) {

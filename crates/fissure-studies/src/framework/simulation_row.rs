@@ -24,6 +24,14 @@ impl Measures {
         self.fields.insert(name, value);
     }
 
+    /// The measure of that name.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        match self.fields.get(name) {
+            Some(Field::Number(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// Adds a measure and returns the measures, for writing them in one expression.
     #[must_use]
     pub fn with(mut self, name: impl Into<String>, value: f64) -> Self {

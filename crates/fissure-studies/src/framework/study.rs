@@ -26,8 +26,9 @@ pub trait Study: Sync {
     /// Each set is expanded to the product of its lists, with the parameters' defaults
     /// for what it leaves out; duplicates among the results are run once. A study whose
     /// default run is the plain product of its defaults returns one empty set. `quick`
-    /// asks for a form small enough for a test.
-    fn default_cases(&self, quick: bool) -> Vec<Overrides>;
+    /// asks for a form small enough for a test. `settings` are the user's: a study whose
+    /// sub-studies differ in their sweeps chooses by them; they replace values in any case.
+    fn default_cases(&self, settings: &Overrides, quick: bool) -> Vec<Overrides>;
 
     /// Runs every case and hands each result row to the report as soon as it is known.
     ///

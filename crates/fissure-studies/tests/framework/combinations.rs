@@ -135,7 +135,7 @@ impl Study for Misdefined {
         self.parameters.clone()
     }
 
-    fn default_cases(&self, _quick: bool) -> Vec<Overrides> {
+    fn default_cases(&self, _settings: &Overrides, _quick: bool) -> Vec<Overrides> {
         vec![self.case.clone()]
     }
 

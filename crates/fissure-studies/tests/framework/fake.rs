@@ -54,7 +54,7 @@ impl Study for Pull {
         ]
     }
 
-    fn default_cases(&self, quick: bool) -> Vec<Overrides> {
+    fn default_cases(&self, _settings: &Overrides, quick: bool) -> Vec<Overrides> {
         if quick {
             return vec![Overrides::new().set("h", 0.02)];
         }
@@ -126,7 +126,7 @@ impl Study for Broken {
         )]
     }
 
-    fn default_cases(&self, _quick: bool) -> Vec<Overrides> {
+    fn default_cases(&self, _settings: &Overrides, _quick: bool) -> Vec<Overrides> {
         vec![Overrides::new()]
     }
 

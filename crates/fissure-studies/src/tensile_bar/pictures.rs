@@ -1,0 +1,261 @@
+//! Pictures and files of the breaking bar, if they are asked for.
+
+use std::path::{Path, PathBuf};
+
+use fissure::io::plot::{LinePlot, ScatterPlot, Style};
+use fissure::io::table::{Cell, Table};
+use fissure::io::vtk::{Compression, PointCloud, Series};
+use fissure::prelude::*;
+
+use super::bar::{BODY, Bar};
+use super::exact::Exact;
+use super::history::Thinned;
+use super::softening::Finished;
+use crate::framework::{Parameters, StudyError};
+
+/// Rows of a curve in pictures and tables.
+const ROWS: usize = 400;
+/// Curves of one picture: more would not be told apart.
+const CURVES: usize = 6;
+
+/// Collects what the pictures show; does nothing without a folder.
+pub(super) struct Pictures {
+    folder: Option<PathBuf>,
+    runs: Vec<Run>,
+}
+
+/// What is kept of a run.
+struct Run {
+    label: String,
+    solver: String,
+    shape: String,
+    angle: f64,
+    error: f64,
+    wall_s: f64,
+    exact: Exact,
+    history: Thinned,
+}
+
+impl Pictures {
+    pub(super) fn new(folder: Option<&Path>) -> Self {
+        Self {
+            folder: folder.map(Path::to_path_buf),
+            runs: Vec::new(),
+        }
+    }
+
+    /// Writes the files of one run and keeps its curves for the pictures of all.
+    pub(super) fn add(
+        &mut self,
+        bar: &Bar,
+        case: &Parameters,
+        finished: &Finished,
+    ) -> Result<(), StudyError> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        let (solver, shape) = (case.choice("solver")?, case.choice("shape")?);
+        let angle = case.number("angle")?;
+        let name = format!(
+            "{solver}-{shape}-{:.0}-per-m-{angle}-deg{}",
+            1.0 / bar.spacing,
+            if case.varying().contains(&"fill") {
+                format!("-{}", case.choice("fill")?)
+            } else {
+                String::new()
+            }
+        );
+        let history = finished.history.thinned(ROWS);
+        history.write(&folder.join(format!("{name}.csv")))?;
+        draw_bar(bar, &finished.scene, &folder.join(format!("{name}.png")))?;
+        write_particles(&finished.scene, folder, &name)?;
+        self.runs.push(Run {
+            label: format!("{solver}, {shape}, h = 1/{:.0} m", 1.0 / bar.spacing),
+            solver: solver.to_owned(),
+            shape: shape.to_owned(),
+            angle,
+            error: finished.row.errors.get("load_l2").unwrap_or(f64::NAN),
+            wall_s: finished.row.wall_s,
+            exact: bar.exact(),
+            history,
+        });
+        Ok(())
+    }
+
+    /// Draws the pictures that compare the runs.
+    pub(super) fn finish(&self) -> Result<(), StudyError> {
+        let (Some(folder), Some(_)) = (&self.folder, self.runs.first()) else {
+            return Ok(());
+        };
+        self.draw_loads(&folder.join("load.png"))?;
+        self.draw_energies(&folder.join("energy.png"))?;
+        self.draw_error_against_time(&folder.join("error-against-time.png"))
+    }
+
+    /// Load against elongation of the finest run of each solver, shape and angle.
+    fn draw_loads(&self, path: &Path) -> Result<(), StudyError> {
+        let exact = self.runs[0].exact;
+        let mut plot = LinePlot::new("Load of the tensile bar")
+            .x_label("elongation [m]")
+            .y_label("load [N]");
+        let chosen = self.finest();
+        for run in chosen.iter().take(CURVES) {
+            let label = match run.angle {
+                0.0 => run.label.clone(),
+                angle => format!("{}, {angle}°", run.label),
+            };
+            plot = plot.series(
+                &label,
+                &run.history.elongation,
+                &run.history.load,
+                Style::Line,
+            );
+        }
+        let (x, y) = sampled(&exact, |exact, elongation| exact.load(elongation));
+        save(plot.series("exact", &x, &y, Style::Dashed), path)
+    }
+
+    /// Work, stored and dissipated energy of the finest quasi-static (or first) run.
+    fn draw_energies(&self, path: &Path) -> Result<(), StudyError> {
+        let finest = self.finest();
+        let chosen = finest.iter().find(|run| run.solver == "quasi-static");
+        let Some(run) = chosen.or(finest.first()) else {
+            return Ok(());
+        };
+        let history = &run.history;
+        let mut plot = LinePlot::new(&format!("Energies: {}", run.label))
+            .x_label("elongation [m]")
+            .y_label("energy [J]");
+        for (name, column) in [
+            ("work of the load", &history.work),
+            ("stored", &history.stored),
+            ("dissipated", &history.dissipated),
+        ] {
+            plot = plot.series(name, &history.elongation, column, Style::Line);
+        }
+        let (x, y) = sampled(&run.exact, |exact, elongation| exact.work(elongation));
+        plot = plot.series("exact work", &x, &y, Style::Dashed);
+        let (x, y) = sampled(&run.exact, |exact, elongation| exact.stored(elongation));
+        save(plot.series("exact stored", &x, &y, Style::Dotted), path)
+    }
+
+    /// Error of the load against wall time: one line per solver and shape.
+    fn draw_error_against_time(&self, path: &Path) -> Result<(), StudyError> {
+        let mut plot = LinePlot::new("Error against run time")
+            .x_label("wall time [s]")
+            .y_label("load_l2 [1]")
+            .log_x()
+            .log_y();
+        let mut lines: Vec<(String, Vec<f64>, Vec<f64>)> = Vec::new();
+        for run in self.runs.iter().filter(|run| run.error.is_finite()) {
+            let label = format!("{}, {}", run.solver, run.shape);
+            match lines.iter_mut().find(|(known, ..)| *known == label) {
+                Some((_, times, errors)) => {
+                    times.push(run.wall_s);
+                    errors.push(run.error);
+                }
+                None => lines.push((label, vec![run.wall_s], vec![run.error])),
+            }
+        }
+        for (label, times, errors) in &lines {
+            plot = plot.series(label, times, errors, Style::LineAndMarkers);
+        }
+        save(plot, path)
+    }
+
+    /// The last, finest run of each solver, shape and angle; linear functions first.
+    fn finest(&self) -> Vec<&Run> {
+        let mut finest: Vec<&Run> = Vec::new();
+        for run in &self.runs {
+            let same = |other: &&mut &Run| {
+                (&other.solver, &other.shape, other.angle) == (&run.solver, &run.shape, run.angle)
+            };
+            match finest.iter_mut().find(same) {
+                Some(other) => *other = run,
+                None => finest.push(run),
+            }
+        }
+        finest
+    }
+}
+
+impl Thinned {
+    fn write(&self, path: &Path) -> Result<(), StudyError> {
+        let failed = || StudyError::failed(format!("writing {}", path.display()));
+        let columns = [
+            "elongation [m]",
+            "load [N]",
+            "work [J]",
+            "stored [J]",
+            "dissipated [J]",
+        ];
+        let mut table = Table::new(&columns).map_err(failed())?;
+        for i in 0..self.elongation.len() {
+            let row = [
+                self.elongation[i],
+                self.load[i],
+                self.work[i],
+                self.stored[i],
+                self.dissipated[i],
+            ];
+            table.row(row.map(Cell::Number)).map_err(failed())?;
+        }
+        table.write(path).map_err(failed())
+    }
+}
+
+/// An exact curve up to 1.25 critical openings.
+fn sampled(exact: &Exact, curve: fn(&Exact, f64) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let end = 1.25 * exact.critical_opening();
+    let x: Vec<f64> = (0..=ROWS).map(|i| end * i as f64 / ROWS as f64).collect();
+    let y = x.iter().map(|x| curve(exact, *x)).collect();
+    (x, y)
+}
+
+/// The bar coloured by the opening of its crack.
+fn draw_bar(bar: &Bar, scene: &Scene<2>, path: &Path) -> Result<(), StudyError> {
+    let Some(body) = scene.body(BODY) else {
+        return Ok(());
+    };
+    let points: Vec<[f64; 2]> = body.motion().position.iter().map(|x| [x.x, x.y]).collect();
+    let critical = bar.exact().critical_opening();
+    let openings = body.value("opening").unwrap_or_default();
+    let openings: Vec<f64> = openings.iter().map(|opening| opening / critical).collect();
+    ScatterPlot::new("Opening of the crack", &points)
+        .colour("opening over critical opening [1]", openings)
+        .range(0.0, 1.0)
+        .particle_size(0.5 * bar.spacing)
+        .labels("x [m]", "y [m]")
+        .save(path)
+        .map_err(StudyError::failed("drawing the bar"))
+}
+
+fn write_particles(scene: &Scene<2>, folder: &Path, name: &str) -> Result<(), StudyError> {
+    let failed = || StudyError::failed(format!("writing the particles of {name}"));
+    let Some(body) = scene.body(BODY) else {
+        return Ok(());
+    };
+    let motion = body.motion();
+    let points: Vec<[f64; 3]> = motion.position.iter().map(|x| [x.x, x.y, 0.0]).collect();
+    let stress: Vec<[f64; 6]> = motion
+        .stress
+        .iter()
+        .map(|s| [s.xx(), s.yy(), s.zz(), s.xy(), s.yz(), s.xz()])
+        .collect();
+    let velocity: Vec<[f64; 3]> = motion.velocity.iter().map(|v| [v.x, v.y, 0.0]).collect();
+    let opening = body.value("opening").unwrap_or_default();
+    let cloud = PointCloud::new(points)
+        .vector("velocity", velocity)
+        .symmetric("stress", stress)
+        .scalar("opening", opening);
+    let mut series = Series::new(folder, name, Compression::Lz4).map_err(failed())?;
+    series
+        .write(scene.time(), cloud)
+        .map_err(failed())
+        .map(|_| ())
+}
+
+fn save(plot: LinePlot, path: &Path) -> Result<(), StudyError> {
+    plot.save(path)
+        .map_err(StudyError::failed(format!("drawing {}", path.display())))
+}
