@@ -44,4 +44,13 @@ pub enum Error {
     /// Curves could not be compared.
     #[error(transparent)]
     Curve(#[from] fissure_diagnostics::CurveError),
+    /// A checkpoint was refused or could not be written.
+    #[error(transparent)]
+    Checkpoint(#[from] fissure_io::checkpoint::CheckpointError),
+    /// A table was refused or could not be written.
+    #[error(transparent)]
+    Table(#[from] fissure_io::table::TableError),
+    /// A ParaView file could not be written.
+    #[error(transparent)]
+    Vtk(#[from] fissure_io::vtk::VtkError),
 }

@@ -54,6 +54,9 @@ pub mod prelude {
         SectionForce, curve_error, fit_slope, section_force, state_hash,
     };
     pub use fissure_grid::{Grid, Shape, shape};
+    pub use fissure_io::checkpoint::{AutoCheckpoint, Checkpoint};
+    pub use fissure_io::table::Table;
+    pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
         Axis, Biot, Control, Crack, Cracking, Decohesive, External, Hencky, Increment, Isotropic,
         Material, MaterialError, NeoHookean, Normal, Path, PlaneStress, Point, Response, Sample,
