@@ -104,8 +104,7 @@ pub fn solver(setting: &Setting, offset: f64) -> Box<dyn Solver<2>> {
     Table::solver(setting.shape, grid, settings).unwrap()
 }
 
-/// Steps a scene, and asserts that it has done what these tests are about: cracks partly open and
-/// particles sorted anew.
+/// Steps a scene.
 pub fn advance(scene: &mut Scene<2>, solver: &mut dyn Solver<2>, steps: u64) {
     run(scene, solver, Until::Steps(steps), &mut []).unwrap();
 }
