@@ -1,6 +1,13 @@
 //! The direction of dependency between the crates.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
+#![allow(
+    missing_docs,
+    clippy::neg_cmp_op_on_partial_ord,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::result_large_err,
+    clippy::unwrap_used
+)]
 
 use std::collections::BTreeSet;
 use std::process::Command;

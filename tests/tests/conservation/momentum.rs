@@ -11,11 +11,11 @@ const H: f64 = 0.125;
 const GRAVITY: f64 = 10.0;
 
 /// Two blocks that collide; one is held at its foot and pulled at its side, all fall.
-fn collision<const D: usize>(space: Space) -> Scene<D>
+fn collision<const D: usize>(case: &Case) -> Scene<D>
 where
     Table: Build<D>,
 {
-    let mut scene: Scene<D> = Table::scene(space);
+    let mut scene: Scene<D> = Table::scene(case.space);
     let block = |x: f64, y: f64| {
         let (mut min, mut max) = ([0.0; D], [3.0 * H; D]);
         (min[0], max[0]) = (x, x + 3.0 * H);
@@ -32,16 +32,8 @@ where
         .fill(
             "right",
             rubber(),
-            &block(left + 3.7 * H, 0.9 * H),
+            &block(left + 3.45 * H, 0.9 * H),
             &Spacing(H / 2.0),
-        )
-        .unwrap()
-        .hold(
-            "foot",
-            "left",
-            |x| x[1] < 0.3 * H,
-            Hold::Component(up),
-            Constant(0.0),
         )
         .unwrap()
         .force("pull", "left", |x| x[0] < left + 0.5 * H, pull)
@@ -49,11 +41,22 @@ where
         .body_force(move |_, _| up * -GRAVITY)
         .set_velocity("right", |x| {
             let mut v = SVector::repeat(0.3 * x[1]);
-            (v[0], v[1]) = (-8.0, 3.0);
+            (v[0], v[1]) = (-2.0, 0.5);
             v
         })
         .unwrap();
+    if held(case) {
+        let foot = |x: &SVector<f64, D>| x[1] < 0.3 * H;
+        scene
+            .hold("foot", "left", foot, Hold::Component(up), Constant(0.0))
+            .unwrap();
+    }
     scene
+}
+
+/// FMPM filters held velocities, and the momentum which that takes is in no reaction.
+fn held(case: &Case) -> bool {
+    !matches!(case.transfer, Transfer::Fmpm { .. })
 }
 
 /// Largest error of a step over `Σ m|v|`, in 60 steps.
@@ -61,7 +64,7 @@ fn worst<const D: usize>(case: &Case, cutoff: f64) -> f64
 where
     Table: Build<D>,
 {
-    let mut scene = collision::<D>(case.space);
+    let mut scene = collision::<D>(case);
     let grid = Grid::over([-4.0 * H; D], [24.0 * H; D], H).unwrap();
     let settings = ExplicitSettings {
         mass_cutoff: cutoff,
@@ -100,8 +103,11 @@ where
         (masses(&scene) / mass - 1.0).abs() <= 1e-15,
         "{case:?}: mass changed"
     );
-    let held = scene.reaction("foot").unwrap()[1];
-    assert!(held.abs() > 1.0, "{case:?}: nothing held, {held}");
+    let reaction = scene.reaction("foot").map_or(f64::NAN, |force| force[1]);
+    assert!(
+        reaction.abs() > 1.0 || !held(case),
+        "{case:?}: {reaction} N"
+    );
     worst
 }
 
@@ -111,9 +117,10 @@ where
 {
     for case in cases(space) {
         let exact = worst::<D>(&case, 0.0);
-        println!("{case:?}: {exact:.1e}");
-        let cut = worst::<D>(&case, 1e-9);
-        println!("   cut {cut:.1e}");
+        assert!(exact <= 1e-13, "{case:?}: {exact:e} in a step");
+        // By default nodes below 1e-9 of a particle's mass feel no force.
+        let cut = worst::<D>(&case, ExplicitSettings::default().mass_cutoff);
+        assert!(cut <= 1e-7, "{case:?}: {cut:e} in a step with the cut-off");
     }
 }
 

@@ -103,6 +103,7 @@ impl<const D: usize> Assembly<D> {
         right: &mut [f64],
         held: &[SVector<f64, D>],
         displacement: &mut [SVector<f64, D>],
+        damping: f64,
     ) -> Result<(), Singular> {
         self.analyse(freedoms)?;
         let this = &*self;
@@ -137,7 +138,7 @@ impl<const D: usize> Assembly<D> {
             }
         }
         let system = self.system.as_mut().ok_or(Singular)?;
-        system.sparse.solve(values, right)?;
+        system.sparse.solve(values, damping, right)?;
         for (node, u) in freedoms.nodes.iter().zip(displacement) {
             for (direction, &equation) in node.directions.iter().zip(&node.equations) {
                 if equation != NONE {

@@ -25,7 +25,7 @@ impl Default for QuasiStaticSettings {
         Self {
             step: 1.0,
             tolerance: 1e-8,
-            max_iterations: 30,
+            max_iterations: 40,
             max_cuts: 12,
             band: BandSource::default(),
         }

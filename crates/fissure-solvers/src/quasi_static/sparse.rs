@@ -5,11 +5,6 @@ use faer::sparse::linalg::lu::{NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par};
 
-/// Added to the diagonal of the system, which is scaled to 1. Motions that nothing resists (a
-/// fragment that has broken off, a bar on rollers) then stay where they are instead of making the
-/// matrix singular. The residual is not touched, so equilibrium is exact all the same.
-const REST: f64 = 1e-10;
-
 /// A fixed pattern of entries, summed where they coincide.
 pub(crate) struct SparseSystem {
     size: usize,
@@ -55,12 +50,13 @@ impl SparseSystem {
     pub(crate) fn solve(
         &mut self,
         mut values: Vec<f64>,
+        damping: f64,
         right: &mut [f64],
     ) -> Result<(), Singular> {
         values.resize(values.len() + self.size, 0.0);
         let assembled = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values);
         let mut matrix = assembled.map_err(|_| Singular)?;
-        let scale = self.scale(&mut matrix);
+        let scale = self.scale(&mut matrix, damping);
         let scaled: Vec<f64> = right.iter().zip(&scale).map(|(r, s)| r * s).collect();
         let mut x = scaled.clone();
         let par = Par::Seq;
@@ -92,8 +88,8 @@ impl SparseSystem {
         Ok(())
     }
 
-    /// Scales the matrix symmetrically to a diagonal of 1 plus [`REST`]; returns the factors.
-    fn scale(&self, matrix: &mut SparseColMat<usize, f64>) -> Vec<f64> {
+    /// Scales the matrix symmetrically to a diagonal of 1 plus `damping`; returns the factors.
+    fn scale(&self, matrix: &mut SparseColMat<usize, f64>, damping: f64) -> Vec<f64> {
         let mut scale = vec![1.0; self.size];
         let (pattern, values) = matrix.parts_mut();
         let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
@@ -108,7 +104,7 @@ impl SparseSystem {
             for k in starts[column]..starts[column + 1] {
                 values[k] *= scale[rows[k]] * scale[column];
                 if rows[k] == column {
-                    values[k] += REST;
+                    values[k] += damping;
                 }
             }
         }

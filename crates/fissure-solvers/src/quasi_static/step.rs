@@ -37,8 +37,12 @@ pub struct QuasiStatic<S, const D: usize> {
     has_stepped: bool,
 }
 
-/// How often a Newton step is halved before it is taken as it is.
-const MAX_HALVINGS: usize = 4;
+/// Added to the diagonal of the system, which is scaled to 1. Motions that nothing resists (a
+/// fragment that has broken off, a bar on rollers) then stay where they are instead of making the
+/// matrix singular. The residual is not touched, so equilibrium is exact all the same.
+const LEAST_DAMPING: f64 = 1e-10;
+/// What that may grow to in a step whose residual rises.
+const MOST_DAMPING: f64 = 1e-1;
 
 /// Why an attempt at a step did not end in equilibrium.
 enum Failed {
@@ -162,7 +166,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         tangents.resize(scene.bodies().len(), Vec::new());
         let mut before: Vec<SVector<f64, D>> = Vec::new();
         let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
-        let mut halvings = 0;
+        let mut damping = LEAST_DAMPING;
         for iteration in 0..=settings.max_iterations {
             let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
                 .map_err(Failed::Refused)?;
@@ -188,17 +192,17 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             if iteration == settings.max_iterations || !error.is_finite() {
                 break;
             }
-            // A particle that jumps between loading and unloading can make full steps cycle: go
-            // half-way back, at most as often as pays.
-            if error > last && halvings < MAX_HALVINGS {
-                halvings += 1;
-                for (u, old) in displacement.iter_mut().zip(&before) {
-                    *u = (*u + old) * 0.5;
-                }
+            // Where a crack is open the tangent is next to nothing, and a full step runs far into
+            // the other side: go back and stiffen the system, as Levenberg and Marquardt do.
+            if error > last && damping < MOST_DAMPING {
+                damping = (damping * 1e2).clamp(1e-6, MOST_DAMPING);
+                displacement.clone_from(&before);
                 continue;
             }
-            halvings = 0;
-            last = if iteration > 0 { error } else { f64::INFINITY };
+            if error < last {
+                damping = (damping * 0.1).max(LEAST_DAMPING);
+            }
+            last = if placed { error } else { f64::INFINITY };
             before.clone_from(displacement);
             assembly
                 .solve(
@@ -209,6 +213,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                     &mut right,
                     &held,
                     displacement,
+                    damping,
                 )
                 .map_err(|_| Failed::Singular)?;
             for (u, change) in displacement.iter_mut().zip(&mut held) {

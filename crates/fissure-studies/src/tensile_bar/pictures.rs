@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::io::table::{Cell, Table};
-use fissure::io::vtk::{Compression, PointCloud, Series};
+use fissure::io::vtk::{Compression, ParticleSeries, Series};
 use fissure::prelude::*;
 
 use super::bar::{BODY, Bar};
@@ -56,19 +56,10 @@ impl Pictures {
         };
         let (solver, shape) = (case.choice("solver")?, case.choice("shape")?);
         let angle = case.number("angle")?;
-        let name = format!(
-            "{solver}-{shape}-{:.0}-per-m-{angle}-deg{}",
-            1.0 / bar.spacing,
-            if case.varying().contains(&"fill") {
-                format!("-{}", case.choice("fill")?)
-            } else {
-                String::new()
-            }
-        );
+        let name = run_name(bar, case)?;
         let history = finished.history.thinned(ROWS);
         history.write(&folder.join(format!("{name}.csv")))?;
         draw_bar(bar, &finished.scene, &folder.join(format!("{name}.png")))?;
-        write_particles(&finished.scene, folder, &name)?;
         self.runs.push(Run {
             label: format!("{solver}, {shape}, h = 1/{:.0} m", 1.0 / bar.spacing),
             solver: solver.to_owned(),
@@ -230,29 +221,38 @@ fn draw_bar(bar: &Bar, scene: &Scene<2>, path: &Path) -> Result<(), StudyError> 
         .map_err(StudyError::failed("drawing the bar"))
 }
 
-fn write_particles(scene: &Scene<2>, folder: &Path, name: &str) -> Result<(), StudyError> {
-    let failed = || StudyError::failed(format!("writing the particles of {name}"));
-    let Some(body) = scene.body(BODY) else {
-        return Ok(());
+/// Name of the files of a run.
+fn run_name(bar: &Bar, case: &Parameters) -> Result<String, StudyError> {
+    let mut name = format!(
+        "{}-{}-{:.0}-per-m-{}-deg",
+        case.choice("solver")?,
+        case.choice("shape")?,
+        1.0 / bar.spacing,
+        case.number("angle")?,
+    );
+    for parameter in ["fill", "ends", "transfer"] {
+        if case.varying().contains(&parameter) {
+            name = format!("{name}-{}", case.choice(parameter)?);
+        }
+    }
+    Ok(name)
+}
+
+/// ParaView frames of a run, if a folder is given: about twenty up to its `end`, s.
+pub(super) fn frames(
+    folder: Option<&Path>,
+    bar: &Bar,
+    case: &Parameters,
+    end: f64,
+) -> Result<Option<ParticleSeries>, StudyError> {
+    let Some(folder) = folder else {
+        return Ok(None);
     };
-    let motion = body.motion();
-    let points: Vec<[f64; 3]> = motion.position.iter().map(|x| [x.x, x.y, 0.0]).collect();
-    let stress: Vec<[f64; 6]> = motion
-        .stress
-        .iter()
-        .map(|s| [s.xx(), s.yy(), s.zz(), s.xy(), s.yz(), s.xz()])
-        .collect();
-    let velocity: Vec<[f64; 3]> = motion.velocity.iter().map(|v| [v.x, v.y, 0.0]).collect();
-    let opening = body.value("opening").unwrap_or_default();
-    let cloud = PointCloud::new(points)
-        .vector("velocity", velocity)
-        .symmetric("stress", stress)
-        .scalar("opening", opening);
-    let mut series = Series::new(folder, name, Compression::Lz4).map_err(failed())?;
-    series
-        .write(scene.time(), cloud)
-        .map_err(failed())
-        .map(|_| ())
+    let name = run_name(bar, case)?;
+    let series = Series::new(folder, &name, Compression::Lz4)
+        .map_err(StudyError::failed("starting the ParaView series"))?;
+    let frames = ParticleSeries::new(series).every_interval(end / 20.0);
+    Ok(Some(frames.velocity().stress().ids().values()))
 }
 
 fn save(plot: LinePlot, path: &Path) -> Result<(), StudyError> {

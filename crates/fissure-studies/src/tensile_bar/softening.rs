@@ -1,21 +1,26 @@
 //! The bar breaking: one row per case.
 
+use std::path::Path;
 use std::time::Instant;
 
 use fissure::diagnostics::{EnergyBalance, FailedZone, state_hash};
+use fissure::io::progress::Progress;
 use fissure::prelude::*;
 use rayon::ThreadPoolBuilder;
 
 use super::bar::{BODY, Bar};
 use super::exact::Exact;
 use super::history::History;
-use super::pictures::Pictures;
+use super::pictures::{Pictures, frames};
 use crate::framework::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
 
 /// Where a run ends, over the critical opening.
 const END: f64 = 1.25;
 /// Up to where the load is compared, over the critical opening.
 const COMPARED: f64 = 1.2;
+
+/// Steps between updates of the progress bar.
+const PROGRESS: u64 = 50;
 
 /// A finished run.
 pub(super) struct Finished {
@@ -40,7 +45,8 @@ pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), Stud
             .num_threads(case.size("threads")?)
             .build()
             .map_err(StudyError::failed("starting the worker threads"))?;
-        let finished = pool.install(|| break_bar(&bar, case))?;
+        let folder = rows.out_dir().map(Path::to_path_buf);
+        let finished = pool.install(|| break_bar(&bar, case, folder.as_deref()))?;
         rows.row(finished.row.clone())?;
         if let Some(reason) = &finished.stopped {
             rows.note(&format!("the run above stopped early: {reason}"))?;
@@ -51,13 +57,13 @@ pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), Stud
 }
 
 /// Runs one case with the shape that it names.
-fn break_bar(bar: &Bar, case: &Parameters) -> Result<Finished, StudyError> {
+fn break_bar(bar: &Bar, case: &Parameters, folder: Option<&Path>) -> Result<Finished, StudyError> {
     match case.choice("shape")? {
-        "gimp" => break_on(bar, case, shape::Gimp),
-        "cpdi" => break_on(bar, case, shape::Cpdi),
-        "bspline2" => break_on(bar, case, shape::Bspline2),
-        "bspline3" => break_on(bar, case, shape::Bspline3),
-        _ => break_on(bar, case, shape::Linear),
+        "gimp" => break_on(bar, case, shape::Gimp, folder),
+        "cpdi" => break_on(bar, case, shape::Cpdi, folder),
+        "bspline2" => break_on(bar, case, shape::Bspline2, folder),
+        "bspline3" => break_on(bar, case, shape::Bspline3, folder),
+        _ => break_on(bar, case, shape::Linear, folder),
     }
 }
 
@@ -94,7 +100,12 @@ impl Loading {
     }
 }
 
-fn break_on<S: Shape<2>>(bar: &Bar, case: &Parameters, shape: S) -> Result<Finished, StudyError> {
+fn break_on<S: Shape<2>>(
+    bar: &Bar,
+    case: &Parameters,
+    shape: S,
+    folder: Option<&Path>,
+) -> Result<Finished, StudyError> {
     let loading = Loading::new(bar, case)?;
     let grid = bar.grid()?;
     let mut scene = bar.scene(&grid, move |t| loading.at(t))?;
@@ -106,6 +117,8 @@ fn break_on<S: Shape<2>>(bar: &Bar, case: &Parameters, shape: S) -> Result<Finis
     let axis = bar.axis();
     let width = band.width(&Vector3::new(axis.x, axis.y, 0.0));
     let mut solver = solver(case, grid, shape, band_source, loading.end)?;
+    let mut frames = frames(folder, bar, case, loading.end)?;
+    let mut progress = Progress::new(loading.end, &case.label()).every(PROGRESS);
     let start = Instant::now();
     let mut history = History::at_rest();
     let mut elongation = 0.0;
@@ -124,13 +137,15 @@ fn break_on<S: Shape<2>>(bar: &Bar, case: &Parameters, shape: S) -> Result<Finis
             }
         };
         elongation += loading.at(report.time) * report.dt;
-        let energy = scene.energy();
-        history.push(
-            elongation,
-            load(&scene, &axis),
-            energy.stored,
-            energy.dissipated,
-        );
+        let (energy, load) = (scene.energy(), load(&scene, &axis));
+        history.push(elongation, load, energy.stored, energy.dissipated);
+        let watched = match &mut frames {
+            Some(frames) => frames.after(&scene, &report),
+            None => Ok(()),
+        };
+        watched
+            .and_then(|()| progress.after(&scene, &report))
+            .map_err(StudyError::failed("watching the run"))?;
     }
     let wall_s = start.elapsed().as_secs_f64();
     Ok(Finished {
