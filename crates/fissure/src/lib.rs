@@ -71,3 +71,18 @@ pub mod prelude {
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     pub use nalgebra::{SVector, Vector2, vector};
 }
+
+/// Compiles and runs the code blocks of the README and the pages of `docs/`.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../../README.md")]
+    mod readme {}
+    #[doc = include_str!("../../../docs/start.md")]
+    mod start {}
+    #[doc = include_str!("../../../docs/concepts.md")]
+    mod concepts {}
+    #[doc = include_str!("../../../docs/own-law.md")]
+    mod own_law {}
+    #[doc = include_str!("../../../docs/choose-a-solver.md")]
+    mod choose_a_solver {}
+}
