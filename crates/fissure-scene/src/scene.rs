@@ -1,5 +1,7 @@
 //! A scene: bodies, what holds and loads them, and time.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use fissure_materials::{Material, PlaneStress, Scale};
 use fissure_particles::{ParticleId, Particles, Region, Seeding, Seeds};
 use nalgebra::SVector;
@@ -10,6 +12,9 @@ use crate::error::SceneError;
 use crate::kinematics::{Kinematics, Plane};
 use crate::law::{SweepLaw, TypedLaw};
 use crate::ledger::{EnergyTotals, Report};
+
+/// Scenes made so far.
+static SCENES: AtomicU64 = AtomicU64::new(1);
 
 /// Acceleration of a body force as a function of position and time, m/s².
 pub(crate) type BodyForce<const D: usize> =
@@ -61,7 +66,8 @@ impl<const D: usize> Scene<D> {
             step: 0,
             energy: EnergyTotals::default(),
             reactions: Vec::new(),
-            edits: 0,
+            // No two scenes count alike, so that a solver notices another scene too.
+            edits: SCENES.fetch_add(1, Ordering::Relaxed) << 32,
         }
     }
 
@@ -358,7 +364,8 @@ impl<const D: usize> Scene<D> {
         )
     }
 
-    /// Counts the changes a user made; solvers prepare anew when it moves.
+    /// Changes with every change a user makes and differs between scenes; solvers prepare anew
+    /// when it does.
     pub fn edits(&self) -> u64 {
         self.edits
     }

@@ -8,7 +8,8 @@ pub trait Solver<const D: usize> {
     /// Moves the scene by one step of the solver's choosing, at most to `until`, s.
     ///
     /// # Errors
-    /// A [`SolveError`]; the scene is then as it was before the step.
+    /// A [`SolveError`]; the scene is then as it was before the step (its particles may have been
+    /// sorted).
     fn step(&mut self, scene: &mut Scene<D>, until: f64) -> Result<Report<D>, SolveError>;
 
     /// What the solver carries from step to step beyond the scene, so that a restarted run gives

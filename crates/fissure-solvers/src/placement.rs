@@ -190,6 +190,18 @@ impl<const D: usize> Placement<D> {
     }
 }
 
+/// Refuses to step to a time that is not after the present.
+pub(crate) fn check_until<const D: usize>(scene: &Scene<D>, until: f64) -> Result<(), SolveError> {
+    if until > scene.time() {
+        return Ok(());
+    }
+    Err(SolveError::Setting {
+        setting: "until",
+        value: until,
+        permitted: "after the scene's time",
+    })
+}
+
 /// Refuses numbers that are not finite, once, before the first step.
 pub(crate) fn check_columns<const D: usize>(scene: &Scene<D>) -> Result<(), SolveError> {
     if scene.particle_count() == 0 {

@@ -69,7 +69,8 @@ pub mod prelude {
         Transfer,
     };
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
-    pub use nalgebra::{SVector, Vector2, vector};
+    // The module too: `vector!` expands to paths into it.
+    pub use nalgebra::{self, SVector, Vector2, vector};
 }
 
 /// Compiles and runs the code blocks of the README and the pages of `docs/`.

@@ -359,7 +359,6 @@ fn numbers_in_scene_grid_and_settings_are_refused_by_name() {
 }
 
 #[test]
-#[ignore = "Explicit::step takes a step of negative length"]
 fn a_time_in_the_past_is_refused() {
     let mut scene = scene();
     let grid = Grid::over([-0.5; 2], [1.0; 2], H).unwrap();

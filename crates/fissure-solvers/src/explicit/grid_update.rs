@@ -11,6 +11,8 @@ use crate::to_grid::NodeSum;
 /// Velocities of a node in a step, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NodeMotion<const D: usize> {
+    /// Whether any particle gives it mass; else it has no velocity of its own.
+    pub massive: bool,
     /// At the start of the step, from the particles.
     pub start: SVector<f64, D>,
     /// At its end.
@@ -24,6 +26,7 @@ pub(crate) struct NodeMotion<const D: usize> {
 impl<const D: usize> Default for NodeMotion<D> {
     fn default() -> Self {
         Self {
+            massive: false,
             start: SVector::zeros(),
             end: SVector::zeros(),
             straining: SVector::zeros(),
@@ -57,6 +60,7 @@ pub(crate) fn update<const D: usize>(
         .with_min_len(Tiles::<D>::NODES)
         .zip(sums)
         .for_each(|(node, sum)| {
+            node.massive = sum.mass > 0.0;
             node.start = velocity(sum);
             node.end = node.start;
             if sum.mass > lightest {

@@ -22,6 +22,10 @@ pub(crate) struct StepKernel<'a, S, const D: usize> {
     pub moves: bool,
     /// Whether the deformation gradient follows `straining`.
     pub strains: bool,
+    /// Whether the velocities are those the particles came here with (stress first): the gradient
+    /// is then one at the end of the motion, `F ← (1 − Δt L)⁻¹ F`, else one at its start,
+    /// `F ← (1 + Δt L) F`. With the other one a spinning body grows or shrinks.
+    pub backward: bool,
 }
 
 impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
@@ -124,24 +128,37 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
         new: &mut MotionSlicesMut<'_, D>,
     ) {
         let axisymmetric = self.transfers.kinematics == Kinematics::Axisymmetric;
-        let mut gradient_sum: SMatrix<f64, D, D> = SMatrix::zeros();
-        let mut radial = 0.0;
-        stencil.visit(|entry, weight, gradient| {
-            let velocity = self.nodes[lookup.node(entry)].straining;
-            gradient_sum += velocity * gradient.transpose();
-            radial += velocity[0] * weight;
+        let mut velocity = SVector::zeros();
+        stencil.visit_values(|entry, weight| {
+            velocity += self.nodes[lookup.node(entry)].straining * weight;
         });
+        let mut gradient_sum: SMatrix<f64, D, D> = SMatrix::zeros();
+        stencil.visit(|entry, _, gradient| {
+            let node = &self.nodes[lookup.node(entry)];
+            // Σ∇N = 0, so the mean may be taken off; a node without mass (N = 0 but ∇N ≠ 0, on the
+            // face of a cell) then moves with the particle.
+            if node.massive {
+                gradient_sum += (node.straining - velocity) * gradient.transpose();
+            }
+        });
+        let change = gradient_sum * self.dt;
+        let mut step = SMatrix::<f64, D, D>::identity() + change;
+        let mut hoop = 1.0 + self.dt * velocity[0] / old.position[row][0];
+        if self.backward {
+            step = (SMatrix::<f64, D, D>::identity() - change)
+                .try_inverse()
+                .unwrap_or(step);
+            hoop = 1.0 / (2.0 - hoop);
+        }
         let f_old = &old.deformation_gradient[row];
         let mut f = *f_old;
         for i in 0..D {
             for j in 0..3 {
-                for k in 0..D {
-                    f[(i, j)] += self.dt * gradient_sum[(i, k)] * f_old[(k, j)];
-                }
+                f[(i, j)] = (0..D).map(|k| step[(i, k)] * f_old[(k, j)]).sum();
             }
         }
         if axisymmetric {
-            f.m33 *= 1.0 + self.dt * radial / old.position[row][0];
+            f.m33 *= hoop;
         }
         new.deformation_gradient[row] = f;
     }

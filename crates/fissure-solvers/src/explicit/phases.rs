@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use super::filter::filter;
 use super::grid_update::{NodeMotion, velocity};
 use super::kernels::StepKernel;
-use super::settings::{ExplicitSettings, Transfer};
+use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
 use crate::loads::add_loads;
 use crate::to_grid::{Gift, StressForce, Sums, Transfers};
@@ -75,6 +75,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             .map_err(|failed| self.off_grid(scene, failed))?;
         nodes.resize(scratch.nodes.len(), NodeMotion::default());
         for (node, sum) in nodes.iter_mut().zip(&scratch.nodes) {
+            node.massive = sum.mass > 0.0;
             node.straining = velocity(sum);
         }
         for held in &self.constraints.held {
@@ -170,6 +171,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             dt: self.dt,
             moves,
             strains,
+            backward: self.settings.stress_update == StressUpdate::First,
         }
     }
 

@@ -7,8 +7,11 @@ use super::grid_update::{self, NodeMotion};
 use super::phases::Phases;
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
-use crate::placement::{Placement, check_columns};
+use crate::placement::{Placement, check_columns, check_until};
 use crate::to_grid::{Sums, Transfers};
+
+/// Share of the mean particle mass below which a node holds round-off and feels no force.
+const NO_MASS: f64 = 1e-16;
 
 /// Explicit material-point solver on a grid with a shape function.
 #[derive(Debug)]
@@ -23,6 +26,8 @@ pub struct Explicit<S, const D: usize> {
     nodes: Vec<NodeMotion<D>>,
     /// Fastest wave plus fastest particle, m/s; `None` before the first step.
     fastest: Option<f64>,
+    /// Whether `fastest` was recalled from a checkpoint and the scene restored after.
+    recalled: bool,
 }
 
 impl<S: Shape<D>, const D: usize> Explicit<S, D> {
@@ -42,6 +47,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             scratch: Sums::default(),
             nodes: Vec::new(),
             fastest: None,
+            recalled: false,
         })
     }
 
@@ -61,6 +67,9 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             return Ok(());
         }
         if self.placement.is_edited(scene) {
+            if !std::mem::take(&mut self.recalled) {
+                self.fastest = None;
+            }
             check_columns(scene)?;
             self.settings.band.check(&self.shape, &self.grid, scene)?;
             if self.settings.transfer == Transfer::Apic {
@@ -101,6 +110,7 @@ fn fastest_particle<const D: usize>(scene: &Scene<D>) -> f64 {
 
 impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
     fn step(&mut self, scene: &mut Scene<D>, until: f64) -> Result<Report<D>, SolveError> {
+        check_until(scene, until)?;
         self.prepare(scene)?;
         let dt = self.step_length(scene, until);
         let Self {
@@ -148,7 +158,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             nodes,
             constraints,
             scene,
-            settings.mass_cutoff * mean_particle_mass(scene),
+            settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
             dt,
         );
         phases.filter(scene, scratch, nodes)?;
@@ -188,6 +198,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
 
     fn recall(&mut self, memory: &[f64]) {
         self.fastest = memory.first().copied();
+        self.recalled = self.fastest.is_some();
     }
 }
 

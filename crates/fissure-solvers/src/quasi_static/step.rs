@@ -13,7 +13,7 @@ use super::kernel::DisplacementKernel;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
 use crate::loads::add_loads;
-use crate::placement::{Placement, check_columns};
+use crate::placement::{Placement, check_columns, check_until};
 use crate::to_grid::{Gift, StressForce, Sums, Transfers};
 
 /// Quasi-static material-point solver on a grid with a shape function.
@@ -269,6 +269,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
 
 impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
     fn step(&mut self, scene: &mut Scene<D>, until: f64) -> Result<Report<D>, SolveError> {
+        check_until(scene, until)?;
         self.prepare(scene)?;
         let left = until - scene.time();
         let mut dt = self.next_step.min(left);
