@@ -31,6 +31,8 @@
 //! # }
 //! ```
 //!
+//! Features, both off: `plots` for [`io`]'s figures, `progress` for a bar on the terminal.
+//!
 //! The numbered examples beside this crate go on from here: `cargo run -p fissure --example 00_point`.
 
 mod error;
@@ -55,6 +57,8 @@ pub mod prelude {
     };
     pub use fissure_grid::{Grid, Shape, shape};
     pub use fissure_io::checkpoint::{AutoCheckpoint, Checkpoint};
+    #[cfg(feature = "progress")]
+    pub use fissure_io::progress::Progress;
     pub use fissure_io::table::Table;
     pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
