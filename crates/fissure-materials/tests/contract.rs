@@ -5,8 +5,8 @@ mod broken;
 use std::sync::atomic::AtomicU64;
 
 use fissure_materials::{
-    Band, Cracking, Decohesive, Increment, Isotropic, Material, MaterialError, Matrix3, Normal,
-    Vector3,
+    Band, Cracking, Decohesive, Hencky, Increment, Isotropic, Material, MaterialError, Matrix3,
+    NeoHookean, Normal, Vector3,
     contract::{self, Contract, Summary, Violation},
     softening::Linear,
 };
@@ -59,6 +59,16 @@ fn breaks(outcome: Result<Summary, Violation>, property: &str) {
 #[test]
 fn isotropic_elasticity_passes() {
     passes(&CONCRETE);
+}
+
+#[test]
+fn finite_elasticity_passes() {
+    passes(&Hencky { elastic: CONCRETE });
+    passes(&NeoHookean {
+        density: 1000.0,
+        young: 1e6,
+        poisson: 0.3,
+    });
 }
 
 #[test]

@@ -24,16 +24,23 @@ pub trait Column: Copy + Default + Serialize + DeserializeOwned + Send + Sync + 
 /// so that going through them is deterministic.
 ///
 /// ```
-/// use fissure_particles::{Affine, Extra};
+/// use fissure_particles::{Column, Extra};
+/// use serde::{Deserialize, Serialize};
+///
+/// #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// struct Temperature(f64);
+/// impl Column for Temperature {
+///     const NAME: &'static str = "temperature";
+/// }
 ///
 /// let mut extra = Extra::with_len(2);
-/// extra.ensure::<Affine<2>>()?[1].0[(0, 1)] = 3.0;
-/// let bytes = extra.save("affine-2d")?;
+/// extra.ensure::<Temperature>()?[1].0 = 293.0;
+/// let bytes = extra.save("temperature")?;
 ///
 /// let mut restored = Extra::with_len(2);
-/// restored.ensure::<Affine<2>>()?;
-/// restored.load("affine-2d", &bytes)?;
-/// assert_eq!(restored.get::<Affine<2>>(), extra.get::<Affine<2>>());
+/// restored.ensure::<Temperature>()?;
+/// restored.load("temperature", &bytes)?;
+/// assert_eq!(restored.get::<Temperature>(), extra.get::<Temperature>());
 /// # Ok::<(), fissure_particles::ExtraError>(())
 /// ```
 #[derive(Default)]
