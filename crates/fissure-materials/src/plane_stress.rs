@@ -105,6 +105,8 @@ impl<M: Material> Material for PlaneStress<M> {
     type State = PlaneStressState<M::State>;
     const OBJECTIVE: bool = M::OBJECTIVE;
     const HYPERELASTIC: bool = M::HYPERELASTIC;
+    const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
+    const STEP_ERROR: f64 = M::STEP_ERROR;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -132,6 +134,10 @@ impl<M: Material> Material for PlaneStress<M> {
                 },
                 other => other,
             })
+    }
+
+    fn isotropic(&self) -> bool {
+        self.0.isotropic()
     }
 
     fn density(&self) -> f64 {

@@ -1,7 +1,5 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use std::fmt::Debug;
-
 use fissure_materials::{Increment, Material, MaterialError, Response, Scale, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, Sym};
@@ -289,7 +287,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                         response
                     }),
             };
-            match answer.and_then(finite) {
+            match answer.and_then(finite::<M>) {
                 Ok(response) => {
                     let volume = self.constants.volume[index];
                     trial[row] = response.state;
@@ -301,9 +299,15 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                     }
                     let speed = self.law.wave_speed(&increment.f_new, &trial[row], &scale);
                     totals.wave_speed = totals.wave_speed.max(speed);
+                    // The law may have set its own thickness.
+                    increment.f_new.m33 = new.deformation_gradient[row].m33;
                     let pressure = self.viscous_pressure(&increment, speed);
                     if pressure > 0.0 {
-                        new.stress[row] -= Sym::IDENTITY * pressure;
+                        let mut viscous = Sym::IDENTITY * pressure;
+                        if self.law.out_of_plane_stretch(&trial[row]).is_some() {
+                            viscous.mandel[2] = 0.0;
+                        }
+                        new.stress[row] -= viscous;
                         let compressed = increment.f_old.determinant() - increment.jacobian();
                         totals.viscous += pressure * compressed * volume;
                     }
@@ -349,11 +353,13 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
 }
 
 /// A law must not hand over NaN in silence.
-fn finite<S: Copy + Debug>(response: Response<S>) -> Result<Response<S>, MaterialError> {
-    if response.stress.is_finite() && response.stored.is_finite() {
+fn finite<M: Material>(response: Response<M::State>) -> Result<Response<M::State>, MaterialError> {
+    let energies = response.stored + response.dissipated;
+    if response.stress.is_finite() && energies.is_finite() {
         Ok(response)
     } else {
-        Err(MaterialError::NotFinite { law: "law" })
+        let law = std::any::type_name::<M>();
+        Err(MaterialError::NotFinite { law })
     }
 }
 

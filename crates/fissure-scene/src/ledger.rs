@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 ///
 /// The ledger keeps apart what is an identity from what is an approximation:
 /// `external = Δkinetic_grid + internal` holds to round-off; `internal = Δstored + dissipated`
-/// to first order in the step; `kinetic_grid − kinetic_particles` is what the transfer between
-/// particles and grid loses.
+/// to first order in the step, if the nodes that do the work also strain the particles (with MUSL
+/// the particles' own velocities do, and a dissipative transfer shows here too);
+/// `kinetic_grid − kinetic_particles` is what the transfer between particles and grid loses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepEnergy {
     /// Work of loads, body forces and prescribed velocities.

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use fissure_materials::{Material, PlaneStress, Scale};
-use fissure_particles::{ParticleId, Particles, Region, Seeding, Seeds};
+use fissure_particles::{ParticleError, ParticleId, Particles, Region, Seeding, Seeds};
 use nalgebra::SVector;
 
 use crate::body::Body;
@@ -106,6 +106,16 @@ impl<const D: usize> Scene<D> {
             body: name.to_owned(),
             source,
         })?;
+        if seeds.position.len() != seeds.volume.len() {
+            return Err(SceneError::Particles {
+                body: name.to_owned(),
+                source: ParticleError::ColumnLength {
+                    column: "volume of the seeds",
+                    found: seeds.volume.len(),
+                    expected: seeds.position.len(),
+                },
+            });
+        }
         let density = law.density();
         let mut particles = Particles::default();
         for (&position, &measure) in seeds.position.iter().zip(&seeds.volume) {

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::{PerCell, SeedError, Seeding, Seeds};
 use crate::region::Region;
 
-/// Cell-uniform particles in a region which need not be aligned with the grid (Sanchez 2011, figs
+/// Cell-uniform particles in a region which need not be aligned with the grid (Sanchez 2010, figs
 /// 5.39 and 5.40): as [`PerCell`], and with `clip` each particle's volume is that of the part of
 /// its sub-cell which lies in the region.
 ///

@@ -7,7 +7,7 @@ use super::{SeedError, Seeding, Seeds};
 use crate::region::Region;
 
 /// The particles which another rule gives, turned about a point together with their domains
-/// (Sanchez 2011, fig. 5.4).
+/// (Sanchez 2010, fig. 5.4).
 ///
 /// The region to hand to it is the one that is *not* turned: what comes out fills
 /// [`region.rotated(angle, centre)`](crate::Compose::rotated) with as many particles, of the same

@@ -272,16 +272,23 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
         check_until(scene, until)?;
         self.prepare(scene)?;
         let left = until - scene.time();
-        let mut dt = self.next_step.min(left);
+        // Shared out so that the last step before `until` is no sliver.
+        let mut dt = if left <= self.next_step * (1.0 + 1e-9) {
+            left
+        } else if left < 2.0 * self.next_step {
+            0.5 * left
+        } else {
+            self.next_step
+        };
         let (mut cuts, mut predict) = (0, self.has_stepped);
         loop {
             let failed = match self.attempt(scene, dt, predict) {
                 Ok(equilibrium) => {
                     // A step shortened only by the end of the run does not shorten the next.
-                    if cuts > 0 || dt < left {
-                        let grown = if cuts == 0 { 2.0 * dt } else { dt };
-                        self.next_step = grown.min(self.settings.step);
-                    }
+                    self.next_step = match cuts {
+                        0 => (2.0 * self.next_step).min(self.settings.step),
+                        _ => dt,
+                    };
                     return self.accept(scene, dt, equilibrium);
                 }
                 Err(failed) => failed,

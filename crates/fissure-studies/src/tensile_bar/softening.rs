@@ -127,7 +127,7 @@ fn break_on<S: Shape<2>>(
         let report = match solver.step(&mut scene, loading.end) {
             Ok(report) => report,
             // A snap that controlled elongation cannot follow: a result, not the study's failure.
-            Err(stop @ SolveError::NoConvergence { .. }) => {
+            Err(stop @ (SolveError::NoConvergence { .. } | SolveError::Singular { .. })) => {
                 stopped = Some(stop.to_string());
                 break;
             }
