@@ -21,6 +21,7 @@
 //! ```
 
 mod body;
+mod building;
 mod condition;
 mod error;
 mod every;

@@ -83,18 +83,9 @@ impl<const D: usize> Placement<D> {
     /// A particle outside the grid, or columns that do not fit one another.
     pub fn update(&mut self, grid: &Grid<D>, scene: &mut Scene<D>) -> Result<(), SolveError> {
         self.homes.clear();
-        for body in scene.bodies() {
-            let particles = body.particles();
-            for (id, x) in particles.id.iter().zip(&particles.motion.position) {
-                let Some(cell) = grid.cell(x) else {
-                    return Err(SolveError::Outside {
-                        body: body.name().to_owned(),
-                        id: *id,
-                        position: x.iter().copied().collect(),
-                        step: scene.step() + 1,
-                        time: scene.time(),
-                    });
-                };
+        for (body, owner) in scene.bodies().iter().enumerate() {
+            for (index, x) in owner.motion().position.iter().enumerate() {
+                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
                 self.homes.push(tile_of(cell));
             }
         }
@@ -187,6 +178,18 @@ impl<const D: usize> Placement<D> {
             self.selected
                 .push(chosen.map(|(index, _)| index as u32).collect());
         }
+    }
+}
+
+/// The error of a step that a particle outside the grid stops.
+pub(crate) fn outside<const D: usize>(scene: &Scene<D>, body: usize, index: usize) -> SolveError {
+    let body = &scene.bodies()[body];
+    SolveError::Outside {
+        body: body.name().to_owned(),
+        id: body.particles().id[index],
+        position: body.motion().position[index].iter().copied().collect(),
+        step: scene.step() + 1,
+        time: scene.time(),
     }
 }
 

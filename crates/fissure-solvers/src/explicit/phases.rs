@@ -13,6 +13,7 @@ use super::kernels::StepKernel;
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
 use crate::loads::add_loads;
+use crate::placement::outside;
 use crate::to_grid::{Gift, StressForce, Sums, Transfers};
 
 /// What the phases of one step share.
@@ -57,7 +58,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 }
             })
             .and_then(|()| add_loads(&self.transfers, scene, sums, time))
-            .map_err(|failed| self.off_grid(scene, failed))
+            .map_err(|(body, index)| outside(scene, body, index))
     }
 
     /// Maps the particles' present (or, `trial`, moved) velocities to the nodes: what strains.
@@ -72,7 +73,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             .to_grid(scene, scratch, |body, i, _, _| {
                 momentum(body.particles(), i, trial)
             })
-            .map_err(|failed| self.off_grid(scene, failed))?;
+            .map_err(|(body, index)| outside(scene, body, index))?;
         nodes.resize(scratch.nodes.len(), NodeMotion::default());
         for (node, sum) in nodes.iter_mut().zip(&scratch.nodes) {
             node.massive = sum.mass > 0.0;
@@ -105,7 +106,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             }
             _ => Ok(()),
         }
-        .map_err(|failed| self.off_grid(scene, failed))
+        .map_err(|(body, index)| outside(scene, body, index))
     }
 
     /// New deformation gradients from the nodes (and the motion, if `moves`), then the law.
@@ -151,7 +152,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 break;
             }
         }
-        failed.map_or(Ok(()), |failed| Err(self.off_grid(scene, failed)))
+        failed.map_or(Ok(()), |(body, index)| Err(outside(scene, body, index)))
     }
 
     fn kernel<'b>(
@@ -172,17 +173,6 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             moves,
             strains,
             backward: self.settings.stress_update == StressUpdate::First,
-        }
-    }
-
-    fn off_grid(&self, scene: &Scene<D>, (body, index): (usize, usize)) -> SolveError {
-        let body = &scene.bodies()[body];
-        SolveError::Outside {
-            body: body.name().to_owned(),
-            id: body.particles().id[index],
-            position: body.motion().position[index].iter().copied().collect(),
-            step: self.step,
-            time: self.time,
         }
     }
 }

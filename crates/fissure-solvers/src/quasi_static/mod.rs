@@ -8,6 +8,7 @@
 //! A step that does not converge is cut and tried again; the scene is untouched until one does.
 
 mod assembly;
+mod balance;
 mod freedoms;
 mod kernel;
 mod settings;

@@ -2,19 +2,16 @@
 
 use fissure_grid::{Grid, Shape};
 use fissure_materials::Tangent;
-use fissure_scene::{
-    Body, ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepSettings, SweepTotals,
-};
+use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use nalgebra::SVector;
 
-use super::assembly::{Assembly, relative};
-use super::freedoms::{Freedoms, NONE};
-use super::kernel::DisplacementKernel;
+use super::assembly::Assembly;
+use super::balance::{external_forces, internal_forces, load_work, reactions, residual, strain};
+use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
-use crate::loads::add_loads;
-use crate::placement::{Placement, check_columns, check_until};
-use crate::to_grid::{Gift, StressForce, Sums, Transfers};
+use crate::placement::{Placement, check_columns, check_until, outside};
+use crate::to_grid::{Sums, Transfers};
 
 /// Quasi-static material-point solver on a grid with a shape function.
 pub struct QuasiStatic<S, const D: usize> {
@@ -120,8 +117,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             force_scale,
             ..
         } = self;
-        let (step, time) = (scene.step() + 1, scene.time());
-        let end = time + dt;
+        let end = scene.time() + dt;
         let transfers = Transfers {
             grid,
             shape,
@@ -129,14 +125,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             kinematics: scene.kinematics(),
         };
         let off_grid = |scene: &Scene<D>, (body, index): (usize, usize)| {
-            let body = &scene.bodies()[body];
-            Failed::Refused(SolveError::Outside {
-                body: body.name().to_owned(),
-                id: body.particles().id[index],
-                position: body.motion().position[index].iter().copied().collect(),
-                step,
-                time,
-            })
+            Failed::Refused(outside(scene, body, index))
         };
         constraints
             .collect(scene, grid, shape, placement, end)
@@ -329,136 +318,4 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             self.has_stepped = stepped != 0.0;
         }
     }
-}
-
-/// Trial motion, stresses and tangents for nodal displacements.
-fn strain<S: Shape<D>, const D: usize>(
-    scene: &mut Scene<D>,
-    transfers: &Transfers<'_, S, D>,
-    displacement: &[SVector<f64, D>],
-    settings: &QuasiStaticSettings,
-    dt: f64,
-    tangents: &mut [Vec<Tangent>],
-) -> Result<SweepTotals, SolveError> {
-    let (step, time) = (scene.step() + 1, scene.time());
-    let mut totals = SweepTotals::default();
-    for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
-        let kernel = DisplacementKernel {
-            transfers,
-            displacement,
-            half_edges: *body.half_edges(),
-            dt,
-        };
-        let sweep = SweepSettings {
-            dt,
-            band: settings.band.band(transfers.shape, transfers.grid, body),
-            viscosity: None,
-        };
-        let runs = &transfers.placement.runs[index];
-        let part = body
-            .sweep_with_tangents(runs, &kernel, &sweep, &mut tangents[index])
-            .map_err(|failure| failure.at(body, step, time))?;
-        totals = totals.merge(part);
-    }
-    Ok(totals)
-}
-
-/// Mass, momentum (for the predictor), body forces and loads at the nodes.
-fn external_forces<S: Shape<D>, const D: usize>(
-    transfers: &Transfers<'_, S, D>,
-    scene: &Scene<D>,
-    sums: &mut Sums<D>,
-    time: f64,
-) -> Result<(), (usize, usize)> {
-    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
-        let particles = body.particles();
-        let acceleration = scene.body_acceleration(&particles.motion.position[i], time);
-        Gift {
-            mass: particles.mass[i],
-            velocity: particles.motion.velocity[i],
-            affine: None,
-            stress: None,
-            acceleration: acceleration.unwrap_or_else(SVector::zeros),
-        }
-    })?;
-    add_loads(transfers, scene, sums, time)
-}
-
-/// Internal forces of the trial stresses on the nodes, with gradients at the end of the step.
-fn internal_forces<S: Shape<D>, const D: usize>(
-    transfers: &Transfers<'_, S, D>,
-    scene: &Scene<D>,
-    sums: &mut Sums<D>,
-) -> Result<(), (usize, usize)> {
-    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
-        let particles = body.particles();
-        let f_new = &particles.trial.deformation_gradient[i];
-        let f_old = &particles.motion.deformation_gradient[i];
-        let volume = particles.volume[i] * f_new.determinant();
-        let mut stress = StressForce::new(
-            transfers.kinematics,
-            &particles.trial.stress[i],
-            volume,
-            &particles.trial.position[i],
-        );
-        stress.on_gradient *= relative::<D>(f_new, f_old);
-        Gift {
-            mass: 0.0,
-            velocity: SVector::zeros(),
-            affine: None,
-            stress: Some(stress),
-            acceleration: SVector::zeros(),
-        }
-    })
-}
-
-/// Unbalanced force of every equation, its norm, and the norm of the reactions and loads.
-fn residual<const D: usize>(
-    freedoms: &Freedoms<D>,
-    internal: &Sums<D>,
-    external: &Sums<D>,
-) -> (Vec<f64>, f64, f64) {
-    let mut right = vec![0.0; freedoms.count];
-    let (mut unbalanced, mut reaction) = (0.0, 0.0);
-    let sums = internal.nodes.iter().zip(&external.nodes);
-    for (node, (internal, external)) in freedoms.nodes.iter().zip(sums) {
-        let force = internal.internal_force + external.external_force;
-        for (direction, &equation) in node.directions.iter().zip(&node.equations) {
-            let component = direction.dot(&force);
-            if equation != NONE {
-                right[equation as usize] = component;
-                unbalanced += component * component;
-                let load = direction.dot(&external.external_force);
-                reaction += load * load;
-            } else {
-                reaction += component * component;
-            }
-        }
-    }
-    (right, unbalanced.sqrt(), reaction.sqrt())
-}
-
-/// Force that each condition exerts, N.
-fn reactions<const D: usize>(
-    scene: &Scene<D>,
-    constraints: &Constraints<D>,
-    internal: &Sums<D>,
-    external: &Sums<D>,
-) -> Vec<SVector<f64, D>> {
-    let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
-    for held in &constraints.held {
-        let unbalanced =
-            internal.nodes[held.node].internal_force + external.nodes[held.node].external_force;
-        for k in 0..held.count {
-            let direction = held.directions[k];
-            reactions[held.conditions[k]] -= direction * direction.dot(&unbalanced);
-        }
-    }
-    reactions
-}
-
-/// Work of loads and body forces over the step, J; they are taken at its end.
-fn load_work<const D: usize>(external: &Sums<D>, displacement: &[SVector<f64, D>]) -> f64 {
-    let pairs = external.nodes.iter().zip(displacement);
-    pairs.map(|(sum, u)| sum.external_force.dot(u)).sum()
 }

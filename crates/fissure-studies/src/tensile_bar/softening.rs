@@ -83,7 +83,12 @@ impl Loading {
             "explicit" => case.number("ramp")? * transit,
             _ => 0.0,
         };
-        let way = END * bar.exact().critical_opening();
+        // With the particle's size as band both columns of the weak cell open, one after the other.
+        let cracks = match case.choice("band")? {
+            "particle" => 2.0,
+            _ => 1.0,
+        };
+        let way = cracks * END * bar.exact().critical_opening();
         Ok(Self {
             speed,
             ramp,
