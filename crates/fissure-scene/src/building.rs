@@ -43,10 +43,11 @@ impl<const D: usize> Scene<D> {
     ) -> Result<&mut Self, SceneError> {
         self.kinematics.check()?;
         self.free_name(name)?;
-        law.check().map_err(|source| SceneError::Law {
+        let refused = |source| SceneError::Law {
             body: name.to_owned(),
             source,
-        })?;
+        };
+        law.check().map_err(refused)?;
         if seeds.position.len() != seeds.volume.len() {
             return Err(SceneError::Particles {
                 body: name.to_owned(),
@@ -76,7 +77,11 @@ impl<const D: usize> Scene<D> {
                 })?;
         }
         let mut law: Box<dyn SweepLaw<D>> = match self.kinematics {
-            Kinematics::PlaneStress { .. } => Box::new(TypedLaw::new(PlaneStress(law))),
+            Kinematics::PlaneStress { .. } => {
+                let law = PlaneStress(law);
+                law.check().map_err(refused)?;
+                Box::new(TypedLaw::new(law))
+            }
             _ => Box::new(TypedLaw::new(law)),
         };
         law.grow(particles.len());

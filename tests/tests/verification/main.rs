@@ -19,3 +19,4 @@ mod gravity;
 mod patch;
 mod rigid_motion;
 mod sections;
+mod turned_point;

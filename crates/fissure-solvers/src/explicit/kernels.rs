@@ -112,9 +112,19 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
                     affine += node.end * arm.transpose() * (weight * inverse);
                 });
             }
-            None => stencil.visit(|entry, _, gradient| {
-                affine += self.nodes[lookup.node(entry)].end * gradient.transpose();
-            }),
+            None => {
+                let mut mean = SVector::zeros();
+                stencil.visit_values(|entry, weight| {
+                    mean += self.nodes[lookup.node(entry)].end * weight;
+                });
+                // As in `strain_particle`: a node without mass moves with the particle.
+                stencil.visit(|entry, _, gradient| {
+                    let node = &self.nodes[lookup.node(entry)];
+                    if node.massive {
+                        affine += (node.end - mean) * gradient.transpose();
+                    }
+                });
+            }
         }
         affine
     }

@@ -54,7 +54,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 Gift {
                     stress: Some(force),
                     acceleration: acceleration.unwrap_or_else(SVector::zeros),
-                    ..momentum(particles, i, false)
+                    ..self.momentum(particles, i, false)
                 }
             })
             .and_then(|()| add_loads(&self.transfers, scene, sums, time))
@@ -71,7 +71,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
     ) -> Result<(), SolveError> {
         self.transfers
             .to_grid(scene, scratch, |body, i, _, _| {
-                momentum(body.particles(), i, trial)
+                self.momentum(body.particles(), i, trial)
             })
             .map_err(|(body, index)| outside(scene, body, index))?;
         nodes.resize(scratch.nodes.len(), NodeMotion::default());
@@ -175,21 +175,26 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             backward: self.settings.stress_update == StressUpdate::First,
         }
     }
-}
 
-/// Mass and momentum of a particle, with its present or its trial velocity.
-fn momentum<const D: usize>(particles: &Particles<D>, i: usize, trial: bool) -> Gift<D> {
-    let motion = if trial {
-        &particles.trial
-    } else {
-        &particles.motion
-    };
-    Gift {
-        mass: particles.mass[i],
-        velocity: motion.velocity[i],
-        affine: motion.affine.get(i).copied(),
-        stress: None,
-        acceleration: SVector::zeros(),
+    /// Mass and momentum of a particle, with its present or its trial velocity.
+    fn momentum(&self, particles: &Particles<D>, i: usize, trial: bool) -> Gift<D> {
+        let motion = if trial {
+            &particles.trial
+        } else {
+            &particles.motion
+        };
+        let affine = match self.settings.transfer {
+            Transfer::Apic => motion.affine.get(i).copied(),
+            // A column that an earlier solver left is not this one's.
+            _ => None,
+        };
+        Gift {
+            mass: particles.mass[i],
+            velocity: motion.velocity[i],
+            affine,
+            stress: None,
+            acceleration: SVector::zeros(),
+        }
     }
 }
 

@@ -139,11 +139,15 @@ pub(super) fn reactions<const D: usize>(
     reactions
 }
 
-/// Work of loads and body forces over the step, J; they are taken at its end.
+/// Work of loads and body forces over the step, J: mean of start and end, times the way.
 pub(super) fn load_work<const D: usize>(
+    before: &[SVector<f64, D>],
     external: &Sums<D>,
     displacement: &[SVector<f64, D>],
 ) -> f64 {
-    let pairs = external.nodes.iter().zip(displacement);
-    pairs.map(|(sum, u)| sum.external_force.dot(u)).sum()
+    let loads = before.iter().zip(&external.nodes);
+    let pairs = loads.zip(displacement);
+    pairs
+        .map(|((before, now), u)| 0.5 * (before + now.external_force).dot(u))
+        .sum()
 }

@@ -32,6 +32,8 @@ pub struct QuasiStatic<S, const D: usize> {
     force_scale: f64,
     /// Nodal displacements of the last step were mapped to the particles' velocities.
     has_stepped: bool,
+    /// Whether the memory was recalled from a checkpoint and the scene restored after.
+    recalled: bool,
 }
 
 /// Added to the diagonal of the system, which is scaled to 1. Motions that nothing resists (a
@@ -57,6 +59,7 @@ struct Equilibrium<const D: usize> {
     reactions: Vec<SVector<f64, D>>,
     iterations: usize,
     load_work: f64,
+    force_scale: f64,
 }
 
 impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
@@ -81,6 +84,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             next_step: settings.step,
             force_scale: 0.0,
             has_stepped: false,
+            recalled: false,
         })
     }
 
@@ -89,6 +93,10 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             return Ok(());
         }
         if self.placement.is_edited(scene) {
+            if !std::mem::take(&mut self.recalled) {
+                (self.force_scale, self.has_stepped) = (0.0, false);
+                self.next_step = self.settings.step;
+            }
             check_columns(scene)?;
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
@@ -135,6 +143,13 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .map_err(|failed| off_grid(scene, failed))?;
         let reached = assembly.reached(placement.tiles.node_count());
         freedoms.number(reached.len(), |node| reached[node], constraints);
+        external_forces(&transfers, scene, external, scene.time())
+            .map_err(|failed| off_grid(scene, failed))?;
+        let before_loads: Vec<SVector<f64, D>> = external
+            .nodes
+            .iter()
+            .map(|sum| sum.external_force)
+            .collect();
         external_forces(&transfers, scene, external, end)
             .map_err(|failed| off_grid(scene, failed))?;
 
@@ -162,20 +177,20 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             internal_forces(&transfers, scene, internal)
                 .map_err(|failed| off_grid(scene, failed))?;
             let (mut right, residual, reaction) = residual(freedoms, internal, external);
-            *force_scale = force_scale.max(reaction);
-            error = residual
-                / if *force_scale > 0.0 {
-                    *force_scale
-                } else {
-                    1.0
-                };
+            // Of this state and of the steps accepted before, not of iterates that were left.
+            let scale = force_scale.max(reaction);
+            error = residual / if scale > 0.0 { scale } else { 1.0 };
+            if !scale.is_finite() {
+                error = f64::INFINITY;
+            }
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
             if placed && error <= settings.tolerance {
                 return Ok(Equilibrium {
                     totals,
                     reactions: reactions(scene, constraints, internal, external),
                     iterations: iteration,
-                    load_work: load_work(external, displacement),
+                    load_work: load_work(&before_loads, external, displacement),
+                    force_scale: scale,
                 });
             }
             if iteration == settings.max_iterations || !error.is_finite() {
@@ -225,6 +240,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         }
         self.placement.note_moves(&self.grid, scene);
         self.has_stepped = true;
+        self.force_scale = equilibrium.force_scale;
         let end = scene.time() + dt;
         let mut work = equilibrium.load_work;
         for (condition, now) in scene.conditions().iter().zip(&equilibrium.reactions) {
@@ -316,6 +332,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             self.next_step = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;
+            self.recalled = true;
         }
     }
 }

@@ -112,7 +112,7 @@ pub(super) fn parameters() -> Vec<Parameter> {
         ),
         Parameter::count(
             "steps",
-            "load steps to 1.25 critical openings (quasi-static)",
+            "load steps of the run, which ends at 1.25 critical openings (quasi-static)",
             150,
             Permitted::counts(1..=100_000),
         ),

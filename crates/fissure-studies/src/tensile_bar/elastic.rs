@@ -2,6 +2,7 @@
 
 use fissure::diagnostics::fit_slope;
 use fissure::prelude::*;
+use rayon::ThreadPoolBuilder;
 
 use super::bar::{BODY, Bar};
 use super::softening::load;
@@ -21,16 +22,21 @@ const TABLE_5_2: [(f64, f64); 4] = [
 pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     let mut series: Vec<Series> = Vec::new();
     for case in cases {
-        let pulled = pull(case)?;
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(case.size("threads")?)
+            .build()
+            .map_err(StudyError::failed("starting the worker threads"))?;
+        let pulled = pool.install(|| pull(case))?;
         let h = pulled.row.h;
         for (measure, error) in [("gauge_load", pulled.gauge_load), ("load", pulled.load)] {
-            let named = |s: &&mut Series| s.fits(&pulled.row, case, measure);
+            let named = |s: &&mut Series| s.fits(case, measure);
             match series.iter_mut().find(named) {
                 Some(series) => series.points.push((h, error)),
                 None => series.push(Series {
                     angle: case.number("angle")?,
                     fill: case.choice("fill")?.to_owned(),
                     shape: pulled.row.shape.clone(),
+                    case: (*case).clone(),
                     measure,
                     points: vec![(h, error)],
                 }),
@@ -49,16 +55,21 @@ struct Series {
     angle: f64,
     fill: String,
     shape: String,
+    case: Parameters,
     measure: &'static str,
     points: Vec<(f64, f64)>,
 }
 
 impl Series {
-    fn fits(&self, row: &SimulationRow, case: &Parameters, measure: &str) -> bool {
-        case.number("angle").is_ok_and(|angle| angle == self.angle)
-            && case.choice("fill").is_ok_and(|fill| fill == self.fill)
-            && row.shape == self.shape
-            && measure == self.measure
+    /// Whether a run differs from this series in the spacing at most.
+    fn fits(&self, case: &Parameters, measure: &str) -> bool {
+        let rest = |parameters: &Parameters| -> Vec<String> {
+            let others = parameters.iter().filter(|(name, _)| *name != "h");
+            others
+                .map(|(name, value)| format!("{name}={value}"))
+                .collect()
+        };
+        measure == self.measure && rest(case) == rest(&self.case)
     }
 
     fn row(&self) -> Row {
