@@ -24,7 +24,8 @@ impl Default for Scale {
     }
 }
 
-/// What the solver or the particle sets and the law may read.
+/// What the solver or the particle sets and the law may read. The solvers at hand set the scale;
+/// one of your own gives the rest through `RunKernel::external`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct External {
     /// Temperature change from the stress-free state, K.

@@ -1,6 +1,6 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use fissure_materials::{Increment, Material, MaterialError, Response, Scale, Tangent};
+use fissure_materials::{External, Increment, Material, MaterialError, Response, Scale, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, Sym};
 
@@ -274,9 +274,11 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                 f_new: new.deformation_gradient[row],
                 dt: self.settings.dt,
                 band: self.settings.band,
-                external: Default::default(),
+                external: External {
+                    scale,
+                    ..self.kernel.external(run, row)
+                },
             };
-            increment.external.scale = scale;
             let answer = match &mut tangents {
                 Tangents::None => self.law.update(&increment, &states[row]),
                 Tangents::Into(tangents) => self

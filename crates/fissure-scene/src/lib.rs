@@ -37,6 +37,7 @@ pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
 pub use error::{PersistError, SceneError, SolveError, WatchError};
 pub use every::Every;
+pub use fissure_materials::External;
 pub use kinematics::{Kinematics, Plane};
 pub use law::BodyLaw;
 pub use ledger::{EnergyTotals, Report, StepEnergy};

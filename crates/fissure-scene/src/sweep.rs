@@ -1,6 +1,6 @@
 //! The unit of work: a run of at most 64 particles of one tile.
 
-use fissure_materials::{MaterialError, Matrix3, Tangent};
+use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::Band;
 
@@ -50,6 +50,13 @@ pub trait RunKernel<const D: usize>: Sync {
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure>;
+
+    /// What the solver sets for the law of one particle (by row of the run) in this step: a
+    /// temperature change, a damage interpolated from a nodal field. The particle's own scale is
+    /// added after.
+    fn external(&self, _run: &Run, _row: usize) -> External {
+        External::default()
+    }
 }
 
 /// Artificial bulk viscosity of von Neumann and Richtmyer: in compression at the rate `−D` the
