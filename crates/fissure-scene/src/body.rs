@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::SolveError;
-use crate::law::{BodyLaw, Constants, SweepLaw, zero_tangents};
+use crate::law::{BodyLaw, Constants, SweepLaw};
 use crate::sweep::{
     Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
@@ -146,7 +146,7 @@ impl<const D: usize> Body<D> {
         settings: &SweepSettings,
         tangents: &mut Vec<Tangent>,
     ) -> Result<SweepTotals, BodyFailure<D>> {
-        zero_tangents(tangents, self.particles.len());
+        tangents.resize(self.particles.len(), Tangent::zero());
         self.sweep_into(runs, kernel, settings, Some(tangents))
     }
 

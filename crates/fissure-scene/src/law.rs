@@ -1,6 +1,6 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use fissure_materials::{External, Increment, Material, MaterialError, Response, Scale, Tangent};
+use fissure_materials::{External, Increment, Material, MaterialError, Response, Scale};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, Sym};
 
@@ -363,9 +363,4 @@ fn finite<M: Material>(response: Response<M::State>) -> Result<Response<M::State
         let law = std::any::type_name::<M>();
         Err(MaterialError::NotFinite { law })
     }
-}
-
-/// Unused parts of a tangent column start from this.
-pub(crate) fn zero_tangents(tangents: &mut Vec<Tangent>, count: usize) {
-    tangents.resize(count, Tangent::zero());
 }

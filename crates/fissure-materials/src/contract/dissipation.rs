@@ -68,7 +68,7 @@ fn ledger<M: Material>(
             dissipated += response.dissipated;
             strain_so_far = strain_so_far.max(point.1.norm());
             let energy =
-                1e-12 * (work_here.abs() + response.stored.abs()) + 1e-15 * subject.stiffness;
+                1e-12 * (work_here.abs() + response.stored.abs()) + 1e-28 * subject.stiffness;
             gauge.check(
                 -response.dissipated,
                 energy,
@@ -81,6 +81,7 @@ fn ledger<M: Material>(
         let mut bound = error
             + 1e-11 * gross
             + 1e-15 * count * subject.stiffness * strain_so_far
+            // An energy from invariants of FᵀF is a difference of numbers near 1.
             + 1e-15 * subject.stiffness;
         if !M::HYPERELASTIC {
             bound += 20.0 * strain_so_far * gross;
