@@ -59,13 +59,13 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Width of a cell, m.
-    #[inline]
+    #[inline(always)]
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
     /// 1 / spacing, 1/m.
-    #[inline]
+    #[inline(always)]
     pub fn inverse_spacing(&self) -> f64 {
         self.inverse
     }
@@ -96,21 +96,21 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Whether a point is in the box, faces included; false for NaN.
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, x: &SVector<f64, D>) -> bool {
         (0..D).all(|axis| x[axis] >= self.origin[axis] && x[axis] <= self.top[axis])
     }
 
     /// The cell that owns a point and the point's coordinate in it, [0, 1) in cells (1 on the grid's upper face). None if
     /// the point is outside or not a number.
-    #[inline]
+    #[inline(always)]
     pub fn locate(&self, x: &SVector<f64, D>) -> Option<([i32; D], SVector<f64, D>)> {
         self.contains(x).then(|| self.local(x))
     }
 
     /// As [`Grid::locate`] for a point known to be inside. For others the nearest cell with the coordinate cut to
     /// [0, 1] (NaN stays NaN).
-    #[inline]
+    #[inline(always)]
     pub fn local(&self, x: &SVector<f64, D>) -> ([i32; D], SVector<f64, D>) {
         let mut cell = [0; D];
         let mut local = SVector::zeros();

@@ -32,7 +32,7 @@ pub struct Separable<const D: usize, const K: usize> {
 impl<const D: usize, const K: usize> Separable<D, K> {
     /// Builds from the weights along an axis, given the particle's coordinate [0, 1] in its cell. None if the particle is
     /// outside the grid or one of the nodes outside the tile's window.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(
         grid: &Grid<D>,
         tile: [i32; D],
@@ -76,6 +76,28 @@ impl<const D: usize, const K: usize> Separable<D, K> {
         let value = self.values[axis][k];
         let arm = self.arm[axis] + k as f64 * self.spacing;
         (value, self.slopes[axis][k], value * arm)
+    }
+
+    /// What a node gets besides its share of the value, for its place along one axis.
+    #[inline(always)]
+    fn extra<L: Lanes, const G: bool, const M: bool>(
+        &self,
+        lanes: L,
+        gift: &Gift<D>,
+        axis: usize,
+        k: usize,
+    ) -> L::Eight {
+        let mut sum = lanes.splat(0.0);
+        if axis < D {
+            let (_, slope, arm) = self.factors(axis, k);
+            if G {
+                sum = lanes.mul(lanes.load(&gift.gradient[axis]), lanes.splat(slope));
+            }
+            if M {
+                sum = lanes.mul_add(lanes.load(&gift.moment[axis]), lanes.splat(arm), sum);
+            }
+        }
+        sum
     }
 
     /// Numbers of a field from the stencil's first node to its last pair of nodes.
@@ -233,11 +255,18 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
                 }
             }
         }
-        Gathered {
-            value: lanes.fold(value),
-            gradient: gradient.map(|sum| lanes.fold(sum)),
-            moment: moment.map(|sum| lanes.fold(sum)),
+        // Loops, not closures: those would not be compiled for the vector unit.
+        let mut gathered = Gathered::default();
+        gathered.value = lanes.fold(value);
+        for axis in 0..D {
+            if G {
+                gathered.gradient[axis] = lanes.fold(gradient[axis]);
+            }
+            if M {
+                gathered.moment[axis] = lanes.fold(moment[axis]);
+            }
         }
+        gathered
     }
 
     /// What depends on the place along axis 2 alone is made once; a node then costs two multiply-adds.
@@ -249,28 +278,21 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
         sums: &mut [[f64; SUMS]],
     ) {
         let value = lanes.load(&gift.value);
-        let gradient: [L::Eight; D] = std::array::from_fn(|a| lanes.load(&gift.gradient[a]));
-        let moment: [L::Eight; D] = std::array::from_fn(|a| lanes.load(&gift.moment[a]));
-        // What a node gets besides its share of the value, for the place along one axis.
-        let extra = |axis: usize, k: usize| {
-            let (_, slope, arm) = self.factors(axis, k);
-            let mut sum = lanes.splat(0.0);
-            if axis < D {
-                if G {
-                    sum = lanes.mul(gradient[axis], lanes.splat(slope));
-                }
-                if M {
-                    sum = lanes.mul_add(moment[axis], lanes.splat(arm), sum);
-                }
+        let zero = lanes.splat(0.0);
+        let (mut extra_1, mut extra_2) = ([zero; K], [zero; K]);
+        if G || M {
+            for k in 0..K {
+                extra_1[k] = self.extra::<L, G, M>(lanes, gift, 1, k);
+                extra_2[k] = self.extra::<L, G, M>(lanes, gift, 2, k);
             }
-            sum
-        };
-        let extra_1: [L::Eight; K] = std::array::from_fn(|j| extra(1, j));
-        let extra_2: [L::Eight; K] = std::array::from_fn(|k| extra(2, k));
+        }
         let sums = &mut sums[self.base..self.base + Self::SUMS_SPAN];
         for i in 0..K {
             let w0 = self.factors(0, i).0;
-            let along_0 = lanes.mul_add(value, lanes.splat(w0), extra(0, i));
+            let along_0 = {
+                let extra = self.extra::<L, G, M>(lanes, gift, 0, i);
+                lanes.mul_add(value, lanes.splat(w0), extra)
+            };
             for j in 0..Self::nodes(1) {
                 let w1 = self.factors(1, j).0;
                 let mut along_1 = lanes.mul(along_0, lanes.splat(w1));

@@ -93,6 +93,12 @@ impl Simd {
     }
 }
 
+impl PartialEq for Simd {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
 /// A task with its unit, in the form that pulp compiles for it.
 struct On<L, T> {
     lanes: L,
@@ -129,11 +135,19 @@ impl Lanes for Plain {
     }
     #[inline(always)]
     fn mul(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
-        std::array::from_fn(|i| a[i] * b[i])
+        let mut out = a;
+        for i in 0..8 {
+            out[i] *= b[i];
+        }
+        out
     }
     #[inline(always)]
     fn mul_add(self, a: [f64; 8], b: [f64; 8], c: [f64; 8]) -> [f64; 8] {
-        std::array::from_fn(|i| a[i] * b[i] + c[i])
+        let mut out = c;
+        for i in 0..8 {
+            out[i] += a[i] * b[i];
+        }
+        out
     }
     #[inline(always)]
     fn fold(self, x: [f64; 8]) -> [f64; 4] {

@@ -30,26 +30,61 @@ impl Run {
     }
 }
 
-/// A particle of a run that a kernel could not move.
+/// A particle that a kernel could not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KernelFailure {
-    /// Index within the run.
-    pub row: usize,
+    /// Index into the body's columns.
+    pub index: usize,
 }
 
-/// What a solver does to a run before the law sees it: fills the trial motion (at least the
-/// deformation gradient) from the present one.
+/// What does not change of the particles of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct RunConstants<'a> {
+    /// Masses, kg.
+    pub mass: &'a [f64],
+    /// Volumes at rest, m³.
+    pub volume: &'a [f64],
+}
+
+/// What a solver does with a body's particles before and after the law sees them, tile by tile.
 pub trait RunKernel<const D: usize>: Sync {
-    /// Fills `new` from `old`; both hold the particles of `run` only.
+    /// Opens a tile: calls `work` once, which hands over the body's runs in it one after another,
+    /// all on one thread. What the runs of a tile share (a window of nodes) is kept on the stack
+    /// of this call.
+    ///
+    /// # Errors
+    /// What `work` returns.
+    fn on_tile(
+        &self,
+        tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure>;
+}
+
+/// A kernel at work on a tile.
+pub trait TileKernel<const D: usize> {
+    /// Fills the trial motion `new` (at least the deformation gradient) from the present one;
+    /// both hold the particles of `run` only.
     ///
     /// # Errors
     /// The first particle that is outside the grid.
     fn gather(
-        &self,
+        &mut self,
         run: &Run,
+        constants: &RunConstants<'_>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure>;
+
+    /// Takes what the law made of the run, its stresses for example, on to the nodes.
+    fn scatter(
+        &mut self,
+        _run: &Run,
+        _constants: &RunConstants<'_>,
+        _old: &MotionSlices<'_, D>,
+        _new: &MotionSlices<'_, D>,
+    ) {
+    }
 
     /// What the solver sets for the law of one particle (by row of the run) in this step: a
     /// temperature change, a damage interpolated from a nodal field. The particle's own scale is

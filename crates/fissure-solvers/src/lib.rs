@@ -9,9 +9,11 @@ mod band;
 mod constraints;
 mod explicit;
 mod loads;
+mod nodes;
 mod placement;
 mod quasi_static;
-mod to_grid;
+mod transfers;
+mod window;
 
 pub use band::BandSource;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};

@@ -6,10 +6,13 @@ use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
-/// Marks a tile without particles in [`Placement::slots`].
-pub(crate) const EMPTY: u32 = u32::MAX;
+/// Most colours of tiles, those of space.
+const COLOURS: usize = 8;
 
 /// Particles of a scene sorted by tile, and the runs they make.
+///
+/// Tiles have 2^D colours, like a chessboard's two: the windows of tiles of one colour do not
+/// overlap. Particles are sorted by colour first, so that a pass can take one colour after another.
 ///
 /// Particles keep their order while none leaves its tile, so sorting is stable in both senses and
 /// a restarted run, which sorts anew, finds the order it was saved in.
@@ -19,12 +22,8 @@ pub struct Placement<const D: usize> {
     pub tiles: Tiles<D>,
     /// Runs of each body.
     pub runs: Vec<Vec<Run>>,
-    /// For each tile its place among the occupied ones, or [`EMPTY`].
-    slots: Vec<u32>,
-    /// `(body, run)` pairs, grouped by occupied tile.
-    members: Vec<(u32, u32)>,
-    /// First member of each occupied tile, and the end.
-    offsets: Vec<u32>,
+    /// Of each body, where the runs of each colour begin, and the end.
+    colours: Vec<[usize; COLOURS + 1]>,
     /// Present indices of the particles that each condition selects.
     selected: Vec<Vec<u32>>,
     edits: Option<u64>,
@@ -40,9 +39,7 @@ impl<const D: usize> Default for Placement<D> {
         Self {
             tiles: Tiles::new(),
             runs: Vec::new(),
-            slots: Vec::new(),
-            members: Vec::new(),
-            offsets: Vec::new(),
+            colours: Vec::new(),
             selected: Vec::new(),
             edits: None,
             moved: false,
@@ -91,6 +88,7 @@ impl<const D: usize> Placement<D> {
         }
         self.tiles.rebuild(self.homes.iter().copied());
         self.runs.clear();
+        self.colours.clear();
         let mut first = 0;
         for body in scene.bodies_mut() {
             let count = body.particles().len();
@@ -98,32 +96,43 @@ impl<const D: usize> Placement<D> {
             first += count;
             self.keys.clear();
             let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
-            self.keys.extend(homes.iter().map(|&home| tile_index(home)));
+            let key = |&home| colour(home) << 32 | tile_index(home);
+            self.keys.extend(homes.iter().map(key));
             if !self.keys.is_sorted() {
                 sort_permutation(&self.keys, &mut self.order);
                 body.reorder(&self.order)?;
                 self.keys.sort_unstable();
             }
             self.runs.push(cut_into_runs(&self.keys));
+            let first_key = |colour: usize| (colour as u64) << 32;
+            let run_key = |run: &Run| self.keys[run.start as usize];
+            let runs = self.runs.last().map_or(&[][..], |runs| runs);
+            self.colours.push(std::array::from_fn(|colour| {
+                runs.partition_point(|run| run_key(run) < first_key(colour))
+            }));
         }
-        self.index_members();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
         Ok(())
     }
 
-    /// Runs of an occupied tile (by slot) as `(body, run)`.
-    pub(crate) fn members(&self, slot: usize) -> impl Iterator<Item = (usize, &Run)> {
-        let range = self.offsets[slot] as usize..self.offsets[slot + 1] as usize;
-        self.members[range]
-            .iter()
-            .map(|&(body, run)| (body as usize, &self.runs[body as usize][run as usize]))
+    /// Runs of a body in the tiles of one colour: tiles whose windows do not overlap.
+    pub(crate) fn runs_of_colour(&self, body: usize, colour: usize) -> &[Run] {
+        let bounds = &self.colours[body];
+        &self.runs[body][bounds[colour]..bounds[colour + 1]]
     }
 
-    /// The slot of a tile among the occupied ones, or [`EMPTY`].
-    pub(crate) fn slot(&self, tile: usize) -> u32 {
-        self.slots[tile]
+    /// The tile whose runs hold a particle, by its present index.
+    pub(crate) fn tile_of_row(&self, body: usize, row: u32) -> Option<usize> {
+        let runs = &self.runs[body];
+        let run = runs.partition_point(|run| run.end <= row);
+        runs.get(run).map(|run| run.tile as usize)
+    }
+
+    /// Takes the scene as it is after a step for known.
+    pub(crate) fn accept(&mut self, scene: &Scene<D>) {
+        self.edits = Some(scene.edits());
     }
 
     /// Present indices of the particles that a condition selects in its body.
@@ -138,32 +147,6 @@ impl<const D: usize> Placement<D> {
             .rev()
             .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
         Some(tile * Tiles::<D>::NODES + local)
-    }
-
-    fn index_members(&mut self) {
-        self.slots.clear();
-        self.slots.resize(self.tiles.len(), EMPTY);
-        for (slot, &tile) in self.tiles.occupied().iter().enumerate() {
-            self.slots[tile as usize] = slot as u32;
-        }
-        let mut members: Vec<(u32, u32, u32)> = Vec::new();
-        for (body, runs) in self.runs.iter().enumerate() {
-            let slot = |run: &Run| self.slots[run.tile as usize];
-            let entries = runs.iter().enumerate();
-            members.extend(entries.map(|(i, run)| (slot(run), body as u32, i as u32)));
-        }
-        members.sort_unstable();
-        self.offsets.clear();
-        self.offsets.resize(self.tiles.occupied().len() + 1, 0);
-        for &(slot, ..) in &members {
-            self.offsets[slot as usize + 1] += 1;
-        }
-        for slot in 1..self.offsets.len() {
-            self.offsets[slot] += self.offsets[slot - 1];
-        }
-        self.members.clear();
-        self.members
-            .extend(members.iter().map(|&(_, body, run)| (body, run)));
     }
 
     fn index_selected(&mut self, scene: &Scene<D>) {
@@ -240,6 +223,12 @@ pub(crate) fn check_columns<const D: usize>(scene: &Scene<D>) -> Result<(), Solv
     Ok(())
 }
 
+/// Colour of a tile: whether each of its coordinates is odd.
+fn colour<const D: usize>(tile: [i32; D]) -> u64 {
+    let odd = |axis: usize| ((tile[axis] & 1) as u64) << axis;
+    (0..D).map(odd).sum()
+}
+
 /// Consecutive equal keys in pieces of at most [`Run::MAX`].
 fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
     let mut runs = Vec::new();
@@ -249,7 +238,7 @@ fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
             runs.push(Run {
                 start: start as u32,
                 end: (start + piece.len()) as u32,
-                tile: group[0] as u32,
+                tile: (group[0] & u64::from(u32::MAX)) as u32,
             });
             start += piece.len();
         }

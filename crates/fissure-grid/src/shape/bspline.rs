@@ -21,7 +21,7 @@ impl<const D: usize> Shape<D> for Bspline2 {
         "bspline2"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -52,7 +52,7 @@ impl<const D: usize> Shape<D> for Bspline3 {
         "bspline3"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -77,7 +77,7 @@ impl<const D: usize> Shape<D> for Bspline3 {
 }
 
 /// The nearest node and the ones beside it; `d` is the distance to it in cells.
-#[inline]
+#[inline(always)]
 fn quadratic(t: f64) -> Line<3> {
     let nearest = i32::from(t >= 0.5);
     let d = t - f64::from(nearest);
@@ -89,7 +89,7 @@ fn quadratic(t: f64) -> Line<3> {
     )
 }
 
-#[inline]
+#[inline(always)]
 fn cubic(t: f64) -> Line<4> {
     let s = 1.0 - t;
     let (t2, s2) = (t * t, s * s);

@@ -16,7 +16,7 @@ impl<const D: usize> Shape<D> for Linear {
         "linear"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,

@@ -4,53 +4,46 @@
 //! mass matrix is `S⁺S` in units of the lumped one. Its inverse on a nodal velocity `v` is
 //! approached by `Σ_{r=1}^m (−1)^{r+1} (m over r) (S⁺S)^{r−1} v` [Hammerquist and Nairn 2017].
 
-use fissure_grid::{Shape, Stencil};
+use fissure_grid::{FIELD, Shape};
 use fissure_scene::Scene;
-use nalgebra::SVector;
 
-use super::grid_update::{NodeMotion, velocity};
+use super::grid_update::each_node;
 use crate::constraints::Constraints;
-use crate::to_grid::{Gift, Sums, Transfers};
+use crate::nodes::{Field, NodeSums, element, vector};
+use crate::transfers::Transfers;
 
-/// Fills `filtered` of every node from the velocity that `source` picks, which satisfies `held`.
+/// The filtered velocity of every node from `term`, which satisfies `held`. `term` and `sums` are
+/// used up.
 pub(crate) fn filter<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    scratch: &mut Sums<D>,
-    nodes: &mut [NodeMotion<D>],
+    sums: &mut NodeSums<D>,
+    mut term: Field,
     order: usize,
-    source: impl Fn(&NodeMotion<D>) -> SVector<f64, D>,
     held: Option<&Constraints<D>>,
-) -> Result<(), (usize, usize)> {
+) -> Result<Field, (usize, usize)> {
     let mut coefficient = order as f64;
-    let mut term: Vec<SVector<f64, D>> = nodes.iter().map(source).collect();
-    for (node, v) in nodes.iter_mut().zip(&term) {
-        node.filtered = v * coefficient;
-    }
+    let scaled = |element: &[f64; FIELD]| element.map(|number| number * coefficient);
+    let mut filtered: Field = term.iter().map(scaled).collect();
     for r in 2..=order {
-        transfers.to_grid(scene, scratch, |body, index, stencil, lookup| {
-            let mut v = SVector::zeros();
-            stencil.visit_values(|entry, weight| v += term[lookup.node(entry)] * weight);
-            Gift {
-                mass: body.particles().mass[index],
-                velocity: v,
-                affine: None,
-                stress: None,
-                acceleration: SVector::zeros(),
-            }
-        })?;
+        transfers.relay(scene, &term, sums)?;
         coefficient *= -((order + 1 - r) as f64) / r as f64;
-        for (v, sum) in term.iter_mut().zip(&scratch.nodes) {
-            *v = velocity(sum);
-        }
+        let relayed = &*sums;
+        each_node(&mut term, |node, v| {
+            *v = element(&relayed.velocity(node), true);
+        });
         // Every term is held, so that the expansion inverts the mass matrix of the free nodes.
         // Holding the sum alone feeds energy in at a wall.
         for held in held.into_iter().flat_map(|constraints| &constraints.held) {
-            term[held.node] = held.apply(&term[held.node]);
+            let velocity = held.apply(&vector(&term[held.node]));
+            term[held.node] = element(&velocity, true);
         }
-        for (node, v) in nodes.iter_mut().zip(&term) {
-            node.filtered += v * coefficient;
-        }
+        let term = &term;
+        each_node(&mut filtered, |node, v| {
+            for (sum, number) in v.iter_mut().zip(&term[node]) {
+                *sum += number * coefficient;
+            }
+        });
     }
-    Ok(())
+    Ok(filtered)
 }
