@@ -112,13 +112,20 @@ impl<const D: usize> Grid<D> {
     /// [0, 1] (NaN stays NaN).
     #[inline(always)]
     pub fn local(&self, x: &SVector<f64, D>) -> ([i32; D], SVector<f64, D>) {
-        let mut cell = [0; D];
+        let (cell, local) = self.cell_and_local(x);
+        // A cast is exact for what is inside and saturates.
+        (std::array::from_fn(|axis| cell[axis] as i32), local)
+    }
+
+    /// The same with the cell's whole numbers as `f64`, which vector units handle better.
+    #[inline(always)]
+    pub(crate) fn cell_and_local(&self, x: &SVector<f64, D>) -> (SVector<f64, D>, SVector<f64, D>) {
+        let mut cell = SVector::zeros();
         let mut local = SVector::zeros();
         for axis in 0..D {
             let scaled = (x[axis] - self.origin[axis]) * self.inverse;
-            // A cast rounds towards zero and saturates, which is the floor for what is inside.
-            cell[axis] = (scaled as i32).clamp(0, self.cells[axis] - 1);
-            local[axis] = (scaled - f64::from(cell[axis])).clamp(0.0, 1.0);
+            cell[axis] = scaled.floor().clamp(0.0, f64::from(self.cells[axis] - 1));
+            local[axis] = (scaled - cell[axis]).clamp(0.0, 1.0);
         }
         (cell, local)
     }

@@ -4,8 +4,7 @@ use nalgebra::SVector;
 
 use crate::simd::Lanes;
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
-use crate::window::window_start;
-use crate::{Grid, Stencil, WINDOW};
+use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START};
 
 /// Window stride of axis 1.
 const ROW: usize = WINDOW as usize;
@@ -13,18 +12,25 @@ const ROW: usize = WINDOW as usize;
 const LAYER: usize = (WINDOW * WINDOW) as usize;
 
 /// Weights along one axis: the first node relative to the particle's cell, values, and slopes per cell width.
-pub(crate) type Line<const K: usize> = (i32, [f64; K], [f64; K]);
+pub(crate) type Line<const K: usize> = (f64, [f64; K], [f64; K]);
+
+/// Places for axes: one more than space has, so that a vector unit takes all at once.
+const AXES: usize = 4;
 
 /// A stencil that is a tensor product: K nodes along each of D axes, `N = Π_a n_a`.
+///
+/// Numbers stand axis by axis beside each other; those of axes that space has not are not used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separable<const D: usize, const K: usize> {
     /// Window index of the lowest node.
     base: usize,
-    values: [[f64; K]; D],
+    values: [[f64; AXES]; K],
     /// Derivatives of the values, 1/m.
-    slopes: [[f64; K]; D],
+    slopes: [[f64; AXES]; K],
+    /// Values times arms, m.
+    moments: [[f64; AXES]; K],
     /// From the particle to the lowest node, m.
-    arm: [f64; D],
+    arm: [f64; AXES],
     /// Cell width, m.
     spacing: f64,
 }
@@ -32,6 +38,8 @@ pub struct Separable<const D: usize, const K: usize> {
 impl<const D: usize, const K: usize> Separable<D, K> {
     /// Builds from the weights along an axis, given the particle's coordinate [0, 1] in its cell. None if the particle is
     /// outside the grid or one of the nodes outside the tile's window.
+    ///
+    /// Written without branches between the axes: all are done at once.
     #[inline(always)]
     pub(crate) fn new(
         grid: &Grid<D>,
@@ -39,22 +47,36 @@ impl<const D: usize, const K: usize> Separable<D, K> {
         x: &SVector<f64, D>,
         line: impl Fn(f64) -> Line<K>,
     ) -> Option<Self> {
-        let (cell, local) = grid.locate(x)?;
+        if !grid.contains(x) {
+            return None;
+        }
+        let (cell, local) = grid.cell_and_local(x);
         let mut stencil = Self {
             base: 0,
-            values: [[0.0; K]; D],
-            slopes: [[0.0; K]; D],
-            arm: [0.0; D],
+            values: [[0.0; AXES]; K],
+            slopes: [[0.0; AXES]; K],
+            moments: [[0.0; AXES]; K],
+            arm: [0.0; AXES],
             spacing: grid.spacing(),
         };
+        let (mut base, mut fits) = (0.0, true);
         for axis in 0..D {
             let (first, values, slopes) = line(local[axis]);
-            stencil.base += window_start(tile[axis], cell[axis] + first, K as i32)? << (3 * axis);
-            stencil.values[axis] = values;
-            stencil.slopes[axis] = slopes.map(|slope| slope * grid.inverse_spacing());
-            stencil.arm[axis] = (f64::from(first) - local[axis]) * grid.spacing();
+            let window = f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START);
+            let start = cell[axis] + first - window;
+            fits &= (0.0..=f64::from(WINDOW) - K as f64).contains(&start);
+            base += start * (1 << (3 * axis)) as f64;
+            let arm = (first - local[axis]) * grid.spacing();
+            stencil.arm[axis] = arm;
+            for k in 0..K {
+                stencil.values[k][axis] = values[k];
+                stencil.slopes[k][axis] = slopes[k] * grid.inverse_spacing();
+                stencil.moments[k][axis] = values[k] * (arm + k as f64 * grid.spacing());
+            }
         }
-        Some(stencil)
+        // The cast is exact: a small whole number, unless it does not fit.
+        stencil.base = base as u16 as usize;
+        fits.then_some(stencil)
     }
 
     /// Nodes along an axis; the axes that space has not have one.
@@ -73,9 +95,11 @@ impl<const D: usize, const K: usize> Separable<D, K> {
         if k >= K {
             return (0.0, 0.0, 0.0);
         }
-        let value = self.values[axis][k];
-        let arm = self.arm[axis] + k as f64 * self.spacing;
-        (value, self.slopes[axis][k], value * arm)
+        (
+            self.values[k][axis],
+            self.slopes[k][axis],
+            self.moments[k][axis],
+        )
     }
 
     /// What a node gets besides its share of the value, for its place along one axis.
@@ -126,14 +150,14 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for k in 0..K {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
-                    let both = value[1][j] * value[2][k];
-                    let along_1 = slope[1][j] * value[2][k];
-                    let along_2 = value[1][j] * slope[2][k];
+                    let both = value[j][1] * value[k][2];
+                    let along_1 = slope[j][1] * value[k][2];
+                    let along_2 = value[j][1] * slope[k][2];
                     for i in 0..K {
-                        gradient[0] = slope[0][i] * both;
-                        gradient[1] = value[0][i] * along_1;
-                        gradient[2] = value[0][i] * along_2;
-                        f(start + i, value[0][i] * both, gradient);
+                        gradient[0] = slope[i][0] * both;
+                        gradient[1] = value[i][0] * along_1;
+                        gradient[2] = value[i][0] * along_2;
+                        f(start + i, value[i][0] * both, gradient);
                     }
                 }
             }
@@ -141,15 +165,15 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for j in 0..K {
                 let start = self.base + ROW * j;
                 for i in 0..K {
-                    gradient[0] = slope[0][i] * value[1][j];
-                    gradient[1] = value[0][i] * slope[1][j];
-                    f(start + i, value[0][i] * value[1][j], gradient);
+                    gradient[0] = slope[i][0] * value[j][1];
+                    gradient[1] = value[i][0] * slope[j][1];
+                    f(start + i, value[i][0] * value[j][1], gradient);
                 }
             }
         } else {
             for i in 0..K {
-                gradient[0] = slope[0][i];
-                f(self.base + i, value[0][i], gradient);
+                gradient[0] = slope[i][0];
+                f(self.base + i, value[i][0], gradient);
             }
         }
     }
@@ -161,22 +185,22 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for k in 0..K {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
-                    let both = value[1][j] * value[2][k];
-                    for (i, along) in value[0].iter().enumerate() {
-                        f(start + i, along * both);
+                    let both = value[j][1] * value[k][2];
+                    for i in 0..K {
+                        f(start + i, value[i][0] * both);
                     }
                 }
             }
         } else if D == 2 {
             for j in 0..K {
                 let start = self.base + ROW * j;
-                for (i, along) in value[0].iter().enumerate() {
-                    f(start + i, along * value[1][j]);
+                for i in 0..K {
+                    f(start + i, value[i][0] * value[j][1]);
                 }
             }
         } else {
-            for (i, &along) in value[0].iter().enumerate() {
-                f(self.base + i, along);
+            for i in 0..K {
+                f(self.base + i, value[i][0]);
             }
         }
     }

@@ -31,9 +31,12 @@ impl NeoHookean {
     }
 
     /// `λ`, `μ` of one particle, Pa.
+    #[inline(always)]
     fn constants(&self, scale: &Scale) -> (f64, f64) {
-        let elastic = self.elastic().scaled(scale);
-        (elastic.lambda(), elastic.shear_modulus())
+        // One division for both: this is most of the time of a small law.
+        let shape = 1.0 - 2.0 * self.poisson;
+        let unit = self.young * scale.stiffness / ((1.0 + self.poisson) * shape);
+        (unit * self.poisson, 0.5 * unit * shape)
     }
 }
 
@@ -79,7 +82,7 @@ impl Material for NeoHookean {
         // tr C − 3 − 2 ln J in terms that are each of second order.
         let shape = strain.distortion + 2.0 * excess_over_log(strain.dilation);
         Ok(Response {
-            stress: kirchhoff / strain.jacobian(),
+            stress: kirchhoff * (1.0 / strain.jacobian()),
             state: (),
             stored: 0.5 * (shear * shape + lambda * log * log),
             dissipated: 0.0,

@@ -1,6 +1,6 @@
 //! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
 
-use fissure_grid::{FIELD, SUMS, Tiles, window_map};
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, window_map};
 
 use crate::nodes::NodeSums;
 
@@ -30,23 +30,38 @@ impl<const D: usize> WindowNodes<D> {
         self.bases[neighbour as usize] + local as usize
     }
 
+    /// Calls `row(entry, node, count)` for each stretch of entries whose nodes stand side by side.
+    #[inline(always)]
+    fn rows(&self, mut row: impl FnMut(usize, usize, usize)) {
+        // Two nodes of the tile below along axis 0, four of the tile itself, two of the one above.
+        for start in (0..self.map.len()).step_by(WINDOW as usize) {
+            for (offset, count) in [(0, 2), (2, 4), (6, 2)] {
+                row(start + offset, self.node(start + offset), count);
+            }
+        }
+    }
+
     /// Copies a field's numbers; the entry beyond the last is left as it is.
     #[inline]
     pub(crate) fn load(&self, field: &[[f64; FIELD]], window: &mut [[f64; FIELD]]) {
-        for (to, &(neighbour, local)) in window.iter_mut().zip(self.map) {
-            *to = field[self.bases[neighbour as usize] + local as usize];
-        }
+        self.rows(|entry, node, count| {
+            window[entry..entry + count].copy_from_slice(&field[node..node + count]);
+        });
     }
 
     /// Adds what was summed in the window to the nodes; those that no particle reached are left
     /// out.
     #[inline]
     pub(crate) fn add(&self, window: &[[f64; SUMS]], sums: &NodeSums<D>) {
-        for (numbers, &(neighbour, local)) in window.iter().zip(self.map) {
-            if numbers.iter().any(|number| *number != 0.0) {
-                sums.add(self.bases[neighbour as usize] + local as usize, numbers);
+        self.rows(|entry, node, count| {
+            for i in 0..count {
+                let numbers = &window[entry + i];
+                // Zeros of both signs have no other bits.
+                if numbers.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 != 0 {
+                    sums.add(node + i, numbers);
+                }
             }
-        }
+        });
     }
 }
 

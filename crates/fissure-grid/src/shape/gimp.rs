@@ -78,14 +78,14 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
 /// the kink is outside, and the rest of `d` acts as on linear functions.
 #[inline(always)]
 fn averaged(t: f64, l: f64, inverse: f64) -> Line<3> {
-    let nearest = i32::from(t >= 0.5);
-    let d = t - f64::from(nearest);
+    let nearest = if t >= 0.5 { 1.0 } else { 0.0 };
+    let d = t - nearest;
     let a = d.clamp(-l, l);
     let (below, above) = ((l - a) * inverse, (l + a) * inverse);
     let low = 0.5 * below * (l - a) + (a - d).max(0.0);
     let high = 0.5 * above * (l + a) + (d - a).max(0.0);
     (
-        nearest - 1,
+        nearest - 1.0,
         [low, 1.0 - (low + high), high],
         [-below, below - above, above],
     )
