@@ -222,6 +222,7 @@ impl<S: Softening> Material for Decohesive<S> {
             toughness > 0.0,
             "finite and > 0",
         )?;
+        self.softening.check()?;
         if let Normal::Prescribed(normal) = self.normal {
             let length = normal.norm();
             check_parameter(NAME, "normal", length, length > 0.0, "finite, not zero")?;
