@@ -31,6 +31,7 @@ mod neo_hookean;
 mod path;
 mod plane_stress;
 mod point;
+mod scalar_damage;
 pub mod softening;
 #[cfg(test)]
 mod testing;
@@ -50,4 +51,8 @@ pub use neo_hookean::NeoHookean;
 pub use path::{Axis, Component, Control, Leg, Path};
 pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
+pub use scalar_damage::{
+    DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,
+    ScalarDamageState,
+};
 pub use softening::Softening;
