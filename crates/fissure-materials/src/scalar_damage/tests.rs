@@ -255,7 +255,8 @@ fn energy_balances_on_a_winding_path_as_steps_shrink() -> Result<(), PointError>
     ask(mazars(REGULARISED), &corners)
 }
 
-/// P3 away from kinks: the same branch 2 % before and after, principal strains apart by as much.
+/// P3 away from kinks: the same branch 2 % before and after, principal strains a tenth apart and off zero, since
+/// beside them the difference steps cannot be short enough.
 #[test]
 fn tangent_is_within_1e_8_of_extrapolated_differences() -> Result<(), MaterialError> {
     fn ask<E: DamageEvolution>(name: &str, law: ScalarDamage<E>) -> Result<(), MaterialError> {
@@ -264,8 +265,9 @@ fn tangent_is_within_1e_8_of_extrapolated_differences() -> Result<(), MaterialEr
         let (mut worst, mut judged): (f64, usize) = (0.0, 0);
         for _ in 0..300 {
             let strain = random.strain_direction(false) * random.log_uniform(5e-5, 3e-3);
-            let [first, second, _] = strain.eigenvalues();
-            if first - second < 0.02 * strain.norm() {
+            let values = strain.eigenvalues();
+            let close = 0.1 * strain.norm();
+            if values[0] - values[1] < close || values.iter().any(|e| e.abs() < close) {
                 continue;
             }
             let turn = random.rotation();
@@ -296,7 +298,7 @@ fn tangent_is_within_1e_8_of_extrapolated_differences() -> Result<(), MaterialEr
             }
         }
         println!("{name}: tangent error {worst:.1e} |C| in {judged} states");
-        assert!(judged > 400 && worst < 1e-8, "{name}: {worst:e}");
+        assert!(judged > 300 && worst < 1e-8, "{name}: {worst:e}");
         Ok(())
     }
     ask("Rankine, linear", rankine(Linear))?;
