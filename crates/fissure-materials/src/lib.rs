@@ -16,6 +16,7 @@
 //! ```
 
 mod biot;
+mod cohesive;
 pub mod contract;
 mod cracking;
 mod decohesive;
@@ -38,6 +39,7 @@ mod testing;
 mod turning;
 
 pub use biot::Biot;
+pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
 pub use error::{MaterialError, check_parameter};
