@@ -67,7 +67,7 @@ impl fmt::Display for Lowered {
     }
 }
 
-impl<M: Cracking> LoweredStrength<M> {
+impl<M: Material> LoweredStrength<M> {
     /// What happens to the strength over this band; `None` if nothing.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ fn lowered(scale: &Scale, factor: f64) -> Scale {
     }
 }
 
-impl<M: Cracking> Material for LoweredStrength<M> {
+impl<M: Material> Material for LoweredStrength<M> {
     type State = LoweredStrengthState<M::State>;
     const OBJECTIVE: bool = M::OBJECTIVE;
     const HYPERELASTIC: bool = M::HYPERELASTIC;

@@ -40,7 +40,7 @@ pub use mazars::{MazarsDamage, MazarsSoftening};
 pub use rankine::RankineDamage;
 
 /// What makes a scalar damage grow, and how fast.
-pub trait DamageEvolution: Copy + Debug + PartialEq + Send + Sync + 'static {
+pub trait DamageEvolution: Copy + Debug + Send + Sync + 'static {
     /// The law's name, for messages.
     const NAME: &'static str;
 

@@ -1,7 +1,10 @@
 use super::*;
 use crate::contract::Contract;
 use crate::softening::{Exponential, Linear};
-use crate::{Decohesive, Isotropic, Normal, PlaneStress, Softening};
+use crate::{
+    Decohesive, Isotropic, MazarsDamage, MazarsSoftening, Normal, PlaneStress, ScalarDamage,
+    Softening,
+};
 
 fn law<S>(softening: S) -> LoweredStrength<Decohesive<S>> {
     LoweredStrength(Decohesive {
@@ -145,5 +148,37 @@ fn the_limit_of_plane_stress_counts() -> Result<(), MaterialError> {
     assert_eq!(inside.check_band(&band, &Scale::default()), Ok(()));
     let notice = law.notice(&band, &Scale::default())?;
     assert!(notice.is_some_and(|n| n.limit < 0.999 * width && n.factor < 1.0));
+    Ok(())
+}
+
+/// A law that does not crack, and whose threshold is a strain.
+#[test]
+fn scalar_damage_is_lowered_too() -> Result<(), MaterialError> {
+    let inside = ScalarDamage {
+        elastic: law(Linear).0.elastic,
+        evolution: MazarsDamage {
+            threshold_strain: 8.5e-5,
+            softening: MazarsSoftening::Toughness(61.35),
+        },
+    };
+    let width = 4.0 * inside.band_limit(&Scale::default());
+    let law = LoweredStrength(inside);
+    let (mut state, mut f_old, mut dissipated) = (law.initial(), Matrix3::identity(), 0.0);
+    for strain in [0.0, 3e-5, 4.2e-5, 4.3e-5, 1e-3, 1e-2] {
+        let increment = Increment {
+            f_old,
+            band: Band::Uniform(width),
+            ..Increment::to(along_x(strain))
+        };
+        let response = law.update(&increment, &state)?;
+        assert_eq!(
+            response.state.inner.damage > 0.0,
+            strain > 4.25e-5,
+            "{strain}"
+        );
+        dissipated += response.dissipated;
+        (state, f_old) = (response.state, increment.f_new);
+    }
+    assert!((dissipated * width / 61.35 - 1.0).abs() < 1e-8);
     Ok(())
 }

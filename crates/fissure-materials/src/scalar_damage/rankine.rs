@@ -31,7 +31,7 @@ pub struct RankineDamage<S = Linear> {
     pub softening: S,
 }
 
-impl<S: Softening + PartialEq> DamageEvolution for RankineDamage<S> {
+impl<S: Softening> DamageEvolution for RankineDamage<S> {
     const NAME: &'static str = "scalar damage";
 
     fn check(&self, _elastic: &Isotropic) -> Result<(), MaterialError> {

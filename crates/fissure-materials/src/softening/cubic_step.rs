@@ -31,9 +31,13 @@ impl Softening for CubicStep {
     }
     #[inline]
     fn area(&self, s: f64) -> f64 {
-        let s = s.min(2.0);
         let x = 0.5 * s;
-        s * (1.0 - x * x * (1.0 - 0.5 * x))
+        if x < 0.5 {
+            return s * (1.0 - x * x * (1.0 - 0.5 * x));
+        }
+        // What is left is missing to 1: round-off never lowers it towards the end.
+        let left = (1.0 - x).max(0.0);
+        1.0 - left * left * left * (2.0 - left)
     }
     #[inline]
     fn critical(&self) -> f64 {

@@ -62,8 +62,14 @@ impl Softening for DoubleExponential {
     #[inline]
     fn area(&self, s: f64) -> f64 {
         let (k, beta) = (self.decay(), self.weight);
-        let part = |decay: f64| -(-decay * s).exp_m1() / decay;
-        ((part(k) - beta * part(self.decay_ratio * k)) / (1.0 - beta)).min(1.0)
+        let fast = self.decay_ratio * k;
+        if k * s < 1.0 {
+            let part = |decay: f64| -(-decay * s).exp_m1() / decay;
+            return (part(k) - beta * part(fast)) / (1.0 - beta);
+        }
+        // What is left is missing to 1: round-off never lowers it towards the end.
+        let left = |decay: f64| (-decay * s).exp() / decay;
+        1.0 - (left(k) - beta * left(fast)) / (1.0 - beta)
     }
     #[inline]
     fn critical(&self) -> f64 {

@@ -17,8 +17,12 @@ impl Softening for Linear {
     }
     #[inline]
     fn area(&self, s: f64) -> f64 {
-        let s = s.min(2.0);
-        s - 0.25 * s * s
+        if s < 1.0 {
+            return s - 0.25 * s * s;
+        }
+        // What is left is missing to 1: round-off never lowers it towards the end.
+        let left = (1.0 - 0.5 * s).max(0.0);
+        1.0 - left * left
     }
     #[inline]
     fn critical(&self) -> f64 {

@@ -28,7 +28,9 @@ pub fn opening(softening: &impl Softening, load: f64, stiffness: f64, s_old: f64
         } else {
             0.5 * (low + high)
         };
-        if (next - s).abs() <= 2.0 * f64::EPSILON * next.abs() {
+        // Converged in the opening, or in the traction to its own round-off.
+        let settled = (next - s).abs() <= 2.0 * f64::EPSILON * next.abs();
+        if settled || excess.abs() <= f64::EPSILON * load {
             return next;
         }
         s = next;

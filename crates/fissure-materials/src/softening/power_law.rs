@@ -44,8 +44,17 @@ impl Softening for PowerLaw {
     }
     #[inline]
     fn area(&self, s: f64) -> f64 {
-        let s = s.min(self.critical());
-        s * (1.0 - (s / self.critical()).powf(self.exponent) / (1.0 + self.exponent))
+        let (n, critical) = (self.exponent, self.critical());
+        let x = (s / critical).min(1.0);
+        if x < 0.5 {
+            return s * (1.0 - x.powf(n) / (1.0 + n));
+        }
+        if x == 1.0 {
+            return 1.0;
+        }
+        // What is left is missing to 1: round-off never lowers it towards the end.
+        let y = 1.0 - x;
+        1.0 - critical * (y + ((1.0 + n) * (-y).ln_1p()).exp_m1() / (1.0 + n))
     }
     #[inline]
     fn critical(&self) -> f64 {

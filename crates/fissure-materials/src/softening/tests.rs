@@ -194,3 +194,64 @@ fn a_curve_with_one_fault_is_found() {
         );
     }
 }
+
+/// Counts how often the curve inside is asked.
+#[derive(Clone, Copy, Debug)]
+struct Counted<S>(S, &'static std::sync::atomic::AtomicUsize);
+
+impl<S: Softening> Softening for Counted<S> {
+    fn ratio(&self, s: f64) -> f64 {
+        self.1.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        self.0.ratio(s)
+    }
+    fn slope(&self, s: f64) -> f64 {
+        self.0.slope(s)
+    }
+    fn area(&self, s: f64) -> f64 {
+        self.0.area(s)
+    }
+    fn critical(&self) -> f64 {
+        self.0.critical()
+    }
+    fn steepest(&self) -> f64 {
+        self.0.steepest()
+    }
+}
+
+#[test]
+fn the_opening_is_found_in_few_evaluations() {
+    fn ask<S: Softening>(curve: S, counter: &'static std::sync::atomic::AtomicUsize) -> usize {
+        let counted = Counted(curve, counter);
+        let mut random = Random::new(12);
+        let mut most = 0;
+        for _ in 0..5000 {
+            let stiffness = curve.steepest() / random.uniform(0.001, 0.99);
+            let exact = random.log_uniform(1e-12, curve.critical().min(30.0));
+            let load = stiffness * exact + curve.ratio(exact);
+            counter.store(0, std::sync::atomic::Ordering::Relaxed);
+            let start = if random.chance(0.5) {
+                0.0
+            } else {
+                random.uniform(0.0, exact)
+            };
+            let found = opening(&counted, load, stiffness, start);
+            let round_off = 1e-14 * load / (stiffness + curve.slope(exact)).abs();
+            assert!(
+                (found - exact).abs() <= round_off + 1e-14 * exact,
+                "{curve:?} {exact:e}"
+            );
+            most = most.max(counter.load(std::sync::atomic::Ordering::Relaxed));
+        }
+        println!("{curve:?}: at most {most} evaluations");
+        most
+    }
+    static COUNTER: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
+    let most = [
+        ask(Linear, &COUNTER),
+        ask(Bilinear::default(), &COUNTER),
+        ask(PowerLaw { exponent: 3.0 }, &COUNTER),
+        ask(Exponential, &COUNTER),
+        ask(CubicStep, &COUNTER),
+    ];
+    assert!(most.into_iter().all(|count| count <= 20), "{most:?}");
+}
