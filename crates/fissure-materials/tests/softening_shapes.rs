@@ -1,4 +1,6 @@
 //! The decohesive law with every softening shape: the battery, and energies to failure (P8).
+// The figures of the pages in `docs/laws/` come from here.
+#![allow(clippy::print_stdout)]
 
 use fissure_materials::{
     Band, Cracking, Decohesive, DecohesiveState, Increment, Isotropic, Material, MaterialError,

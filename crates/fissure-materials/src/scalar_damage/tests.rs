@@ -395,3 +395,28 @@ fn an_evolution_of_ones_own_passes() {
     let message = contract::check(&law).err().map(|v| v.to_string());
     assert_eq!(message.unwrap_or_default(), "");
 }
+
+#[test]
+fn plane_stress_bears_until_nothing_is_left() -> Result<(), MaterialError> {
+    let law = crate::PlaneStress(rankine(Linear));
+    let (mut state, mut f_old) = (law.initial(), Matrix3::identity());
+    for part in 1..=100 {
+        let increment = Increment {
+            f_old,
+            band: Band::Uniform(0.02),
+            ..Increment::to(along_x(4e-5 * f64::from(part)))
+        };
+        let response = law.update(&increment, &state)?;
+        assert!(response.stress.zz() == 0.0 && response.stress.xx() < 2.7e6 * (1.0 + 1e-9));
+        // Nothing is left that could give the thickness a stiffness.
+        let tangent = law.tangent(&increment, &state);
+        let spent = response.state.inner.damage == 1.0;
+        assert_eq!(
+            matches!(tangent, Err(MaterialError::NotFinite { .. })),
+            spent
+        );
+        (state, f_old) = (response.state, increment.f_new);
+    }
+    assert!(state.inner.damage == 1.0);
+    Ok(())
+}
