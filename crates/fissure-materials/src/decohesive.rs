@@ -222,6 +222,7 @@ impl<S: Softening> Material for Decohesive<S> {
             toughness > 0.0,
             "finite and > 0",
         )?;
+        self.softening.check()?;
         if let Normal::Prescribed(normal) = self.normal {
             let length = normal.norm();
             check_parameter(NAME, "normal", length, length > 0.0, "finite, not zero")?;
@@ -321,8 +322,9 @@ impl<S: Softening> Point<'_, S> {
         if state.width > 0.0 {
             let normal = Vector3::from(state.normal);
             elastic_strain -= Sym::dyad(&normal) * (state.opening / state.width);
-            dissipated = self.toughness / state.width
-                * (self.softening.area(state.softened) - self.softening.area(old.softened));
+            let spent = self.softening.area(state.softened) - self.softening.area(old.softened);
+            // Where a curve is flat the difference of two areas can be round-off below zero.
+            dissipated = self.toughness / state.width * spent.max(0.0);
         }
         Response {
             stress: kinematics.cauchy(&step.biot_stress),

@@ -16,6 +16,7 @@
 //! ```
 
 mod biot;
+mod cohesive;
 pub mod contract;
 mod cracking;
 mod decohesive;
@@ -25,17 +26,20 @@ mod finite_strain;
 mod hencky;
 mod increment;
 mod isotropic;
+mod lowered_strength;
 mod material;
 mod neo_hookean;
 mod path;
 mod plane_stress;
 mod point;
+mod scalar_damage;
 pub mod softening;
 #[cfg(test)]
 mod testing;
 mod turning;
 
 pub use biot::Biot;
+pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
 pub use error::{MaterialError, check_parameter};
@@ -43,9 +47,14 @@ pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 pub use hencky::Hencky;
 pub use increment::{External, Increment, Response, Scale};
 pub use isotropic::Isotropic;
+pub use lowered_strength::{Lowered, LoweredStrength, LoweredStrengthState};
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
 pub use path::{Axis, Component, Control, Leg, Path};
 pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
+pub use scalar_damage::{
+    DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,
+    ScalarDamageState,
+};
 pub use softening::Softening;

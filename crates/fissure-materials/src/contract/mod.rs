@@ -28,6 +28,7 @@ mod generator;
 mod report;
 mod runner;
 mod shrink;
+mod softening;
 #[cfg(feature = "proptest")]
 pub mod strategies;
 mod subject;
@@ -42,6 +43,7 @@ use fissure_tensor::Band;
 pub use case::{Case, Step};
 pub use generator::Random;
 pub use report::{Summary, Tally, Violation};
+pub use softening::{SofteningFault, check_softening};
 
 use crate::{Cracking, Material, MaterialError, Scale};
 use runner::{Property, run};
