@@ -127,7 +127,7 @@ impl Material for Isotropic {
 
 /// A NaN would otherwise pass through the linear law unseen.
 #[inline]
-fn check_deformation(increment: &Increment) -> Result<(), MaterialError> {
+pub(crate) fn check_deformation(increment: &Increment) -> Result<(), MaterialError> {
     let determinant = increment.jacobian();
     if determinant > 0.0 && determinant.is_finite() {
         Ok(())

@@ -30,12 +30,14 @@ mod j2;
 mod logarithmic;
 mod material;
 mod neo_hookean;
+mod orthotropic;
 mod path;
 mod plane_stress;
 mod point;
 pub mod softening;
 #[cfg(test)]
 mod testing;
+mod thermal;
 mod turning;
 
 pub use biot::Biot;
@@ -50,7 +52,9 @@ pub use isotropic::Isotropic;
 pub use j2::{J2, J2State};
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
+pub use orthotropic::Orthotropic;
 pub use path::{Axis, Component, Control, Leg, Path};
 pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
 pub use softening::Softening;
+pub use thermal::{Expansion, Thermal, ThermalState};
