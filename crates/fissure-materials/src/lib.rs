@@ -39,6 +39,7 @@ pub mod softening;
 mod testing;
 mod thermal;
 mod turning;
+mod viscous_damage;
 
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};
@@ -58,3 +59,4 @@ pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
 pub use softening::Softening;
 pub use thermal::{Expansion, Thermal, ThermalState};
+pub use viscous_damage::{DamageSurface, Relaxation, ViscousDamage, ViscousDamageState};
