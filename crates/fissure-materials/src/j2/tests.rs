@@ -2,7 +2,7 @@ use super::*;
 use crate::contract::{self, Random};
 use crate::hardening::{Linear, Table, Voce};
 use crate::testing::{assert_tangent, assert_wave_speed, gradients};
-use crate::{Axis, Band, Hencky, Path, Point, PointError};
+use crate::{Axis, Band, Hencky, Path, PlaneStress, Point, PointError};
 
 const STEEL: Isotropic = Isotropic {
     density: 7800.0,
@@ -75,6 +75,22 @@ fn tension_follows_the_hardening_curve() -> Result<(), PointError> {
         let lateral = -STEEL.poisson * VOCE.stress(alpha) / STEEL.young - 0.5 * alpha;
         assert!((lateral / (1.0 + end.strain.yy()).ln() - 1.0).abs() < 1e-9);
     }
+    Ok(())
+}
+
+/// The same in plane stress, where the thickness is found by iteration.
+#[test]
+fn plane_stress_tension_follows_the_hardening_curve() -> Result<(), PointError> {
+    let path = Path::new(Band::cube(1e-3)).uniaxial(Axis::X, 0.1, 20);
+    let law = PlaneStress(voce());
+    let samples = Point::new(&law)?.drive(&path)?;
+    let end = samples.last().expect("there are steps");
+    let jacobian = end.deformation_gradient().determinant();
+    let alpha = end.state.inner.equivalent;
+    let tension = jacobian * end.stress.xx();
+    assert!((tension / VOCE.stress(alpha) - 1.0).abs() < 1e-9);
+    let log = VOCE.stress(alpha) / STEEL.young + alpha;
+    assert!((log / 1.1_f64.ln() - 1.0).abs() < 1e-9, "{log}");
     Ok(())
 }
 
@@ -179,6 +195,8 @@ fn random_walks_stay_admissible() {
             };
             assert!(response.stress.is_finite() && response.dissipated >= 0.0);
             assert!(response.state.equivalent >= state.equivalent);
+            let tangent = law.tangent(&increment, &state);
+            assert!(tangent.is_ok_and(|tangent| tangent.is_finite()));
             let limit = VOCE.stress(response.state.equivalent);
             let mises = determinant * response.stress.von_mises();
             let condition = next.norm_squared() * (1.0 + state.plastic.norm());

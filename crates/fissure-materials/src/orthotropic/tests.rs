@@ -3,6 +3,7 @@ use fissure_tensor::{Matrix6, Vector3, rotation};
 use super::*;
 use crate::contract;
 use crate::testing::{assert_tangent, assert_wave_speed, gradients};
+use crate::{Axis, Band, Path, PlaneStress, Point, PointError};
 
 /// Spruce; L, R, T as 1, 2, 3.
 fn spruce() -> Orthotropic {
@@ -100,6 +101,27 @@ fn axes_turn_with_the_material() -> Result<(), MaterialError> {
     let axis = turn * law.axes.column(0);
     let expected = Sym::dyad(&axis) * (law.young[0] * strain);
     assert!((stress - expected).max_abs() <= 1e-6 * law.young[0] * strain);
+    Ok(())
+}
+
+/// Plane stress of a board pulled at an angle to the grain: the modulus by the book,
+/// `1/E = c⁴/E₁ + s⁴/E₂ + c²s² (1/G₁₂ − 2ν₁₂/E₁)`.
+#[test]
+fn pulled_at_an_angle_it_has_the_modulus_of_the_book() -> Result<(), PointError> {
+    for angle in [0.0, 0.3, 0.8, 1.4] {
+        let law = Orthotropic {
+            axes: rotation(&Vector3::z(), angle),
+            ..spruce()
+        };
+        let path = Path::new(Band::cube(1e-3)).uniaxial(Axis::X, 1e-8, 1);
+        let stress = Point::new(&law)?.drive(&path)?[0].stress.xx();
+        let plane = Point::new(&PlaneStress(law))?.drive(&path)?[0].stress.xx();
+        let (c, s) = (angle.cos().powi(2), angle.sin().powi(2));
+        let mixed = 1.0 / law.shear_12 - 2.0 * law.poisson_12 / law.young[0];
+        let compliance = c * c / law.young[0] + s * s / law.young[1] + c * s * mixed;
+        assert!((stress * compliance / 1e-8 - 1.0).abs() < 1e-6, "{angle}");
+        assert!((plane * compliance / 1e-8 - 1.0).abs() < 1e-6, "{angle}");
+    }
     Ok(())
 }
 
