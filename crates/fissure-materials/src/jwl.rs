@@ -14,7 +14,7 @@
 //! `V_CJ = 1 − P_CJ/(ρ₀ D²)` by the momentum across the front  (6). While it burns,
 //! `dy/dV = −F ω y/V + (1 − F) s`; with `F̄` the mean of both ends and `r = (V₀/V₁)^{F̄ω}`,
 //! `y₁ = r y₀ + (1 − F̄) (S₀ − S₁) (1 + r)/2`  (7): exact for `F = 0` and `F = 1`, of second order
-//! between. Energies are `E`, the chemical one included, and no dissipation.
+//! between; a step too long for it, where `y` would be negative, is refused. Energies are `E`, the chemical one included, and no dissipation.
 //!
 //! The law sees `F`, not the heat of a solver's artificial viscosity: compressed by (5) alone a
 //! point ends somewhat below the Chapman-Jouguet pressure (docs/laws/jwl.md has the figure).
@@ -171,6 +171,14 @@ impl Jwl {
         let thermal = ratio * old_thermal + (1.0 - mean) * released * half;
         let slope = ratio_slope * (old_thermal + 0.5 * (1.0 - mean) * released)
             + ((1.0 - mean) * self.cold_pressure(volume) - mean_rate * released) * half;
+        if !(thermal >= 0.0) {
+            // The mean of a step this long that burns and compresses at once is below any gas.
+            return Err(MaterialError::NoConvergence {
+                law: NAME,
+                iterations: 1,
+                residual: thermal / self.energy,
+            });
+        }
         let kept = if burned == 1.0 {
             thermal * volume.powf(self.omega)
         } else {
