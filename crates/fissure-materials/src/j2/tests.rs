@@ -1,7 +1,7 @@
 use super::*;
 use crate::contract::{self, Random};
 use crate::hardening::{Linear, Table, Voce};
-use crate::testing::{assert_tangent, assert_wave_speed, gradients};
+use crate::testing::{assert_wave_speed, gradients, tangent_error};
 use crate::{Axis, Band, Hencky, Path, PlaneStress, Point, PointError};
 
 const STEEL: Isotropic = Isotropic {
@@ -144,6 +144,7 @@ fn below_yield_it_is_hencky_elasticity() -> Result<(), MaterialError> {
 fn tangent_and_wave_speed_hold_at_large_strain() -> Result<(), MaterialError> {
     let law = voce();
     let all = gradients();
+    let mut largest: f64 = 0.0;
     for start in &all {
         let old = law.update(&Increment::to(*start), &law.initial())?.state;
         for end in &all {
@@ -151,11 +152,13 @@ fn tangent_and_wave_speed_hold_at_large_strain() -> Result<(), MaterialError> {
                 continue; // on the yield surface, where the tangent jumps
             }
             let increment = Increment::to(*end);
-            assert_tangent(&law, &increment, &old, 1e-8)?;
+            largest = largest.max(tangent_error(&law, &increment, &old)?);
             let state = law.update(&increment, &old)?.state;
             assert_wave_speed(&law, end, &state, f64::INFINITY)?;
         }
     }
+    println!("largest error of the tangent: {largest:.1e}");
+    assert!(largest <= 1e-8);
     Ok(())
 }
 

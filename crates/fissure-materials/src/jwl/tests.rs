@@ -2,7 +2,7 @@ use fissure_tensor::{Vector3, rotation};
 
 use super::*;
 use crate::contract::{self, Random};
-use crate::testing::{assert_tangent, assert_wave_speed, gradients};
+use crate::testing::{assert_wave_speed, gradients, tangent_error};
 
 fn near(value: f64, expected: f64, relative: f64) {
     assert!(
@@ -123,8 +123,9 @@ fn expansion_is_the_isentrope() -> Result<(), MaterialError> {
 #[test]
 fn tangent_and_wave_speed_hold_at_large_strain() -> Result<(), MaterialError> {
     let law = gas(Jwl::TNT);
+    let mut largest: f64 = 0.0;
     for f in gradients() {
-        assert_tangent(&law, &Increment::to(f), &law.initial(), 1e-8)?;
+        largest = largest.max(tangent_error(&law, &Increment::to(f), &law.initial())?);
         assert_wave_speed(&law, &f, &law.initial(), 1.0 + 1e-9)?;
     }
     // While it burns by its own compression, and while it is burnt from outside.
@@ -137,10 +138,12 @@ fn tangent_and_wave_speed_hold_at_large_strain() -> Result<(), MaterialError> {
         (0.95, 0.8, 0.2),
     ] {
         let increment = volumes(from, to, burned);
-        assert_tangent(&law, &increment, &state, 1e-8)?;
+        largest = largest.max(tangent_error(&law, &increment, &state)?);
         state = law.update(&increment, &state)?.state;
         assert!(state.burned > 0.0 && state.burned < 1.0);
     }
+    println!("largest error of the tangent: {largest:.1e}");
+    assert!(largest <= 1e-8);
     Ok(())
 }
 

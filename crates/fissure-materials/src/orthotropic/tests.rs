@@ -2,7 +2,7 @@ use fissure_tensor::{Matrix6, Vector3, rotation};
 
 use super::*;
 use crate::contract;
-use crate::testing::{assert_tangent, assert_wave_speed, gradients};
+use crate::testing::{assert_wave_speed, gradients, tangent_error};
 use crate::{Axis, Band, Path, PlaneStress, Point, PointError};
 
 /// Spruce; L, R, T as 1, 2, 3.
@@ -42,7 +42,9 @@ fn compliance(law: &Orthotropic) -> Matrix6<f64> {
 fn stiffness_inverts_the_engineering_constants() {
     let law = spruce();
     let product = law.stiffness_in_material_axes().0 * compliance(&law);
-    assert!((product - Matrix6::identity()).amax() < 1e-13, "{product}");
+    let error = (product - Matrix6::identity()).amax();
+    println!("stiffness times compliance less identity: {error:.1e}");
+    assert!(error < 1e-13, "{product}");
 }
 
 #[test]
@@ -128,9 +130,12 @@ fn pulled_at_an_angle_it_has_the_modulus_of_the_book() -> Result<(), PointError>
 #[test]
 fn tangent_and_wave_speed_hold_at_large_strain() -> Result<(), MaterialError> {
     let law = spruce();
+    let mut largest: f64 = 0.0;
     for f in gradients() {
-        assert_tangent(&law, &Increment::to(f), &(), 1e-8)?;
+        largest = largest.max(tangent_error(&law, &Increment::to(f), &())?);
     }
+    println!("largest error of the tangent: {largest:.1e}");
+    assert!(largest <= 1e-8);
     // The bound is exact here: the fastest wave runs along the grain.
     assert_wave_speed(&law, &Matrix3::identity(), &(), 1.01)?;
     for f in gradients() {
