@@ -11,6 +11,8 @@ pub(super) struct Subject<'a, M> {
     pub law: &'a M,
     /// Largest stress per strain of the virgin law, Pa.
     pub stiffness: f64,
+    /// Stress of the virgin law at rest, Pa; zero but for a law under pressure from the start.
+    pub rest_stress: Sym,
     /// Tangent of the virgin law at rest.
     pub modulus: Tangent,
     /// Strain at which something happens: strength over stiffness, or the limit of linearity.
@@ -35,6 +37,7 @@ impl<'a, M: Material> Subject<'a, M> {
         let mut subject = Self {
             law,
             stiffness: 0.0,
+            rest_stress: Sym::ZERO,
             modulus: Tangent::zero(),
             natural: contract.strain_scale.unwrap_or(reach),
             reach,
@@ -47,11 +50,12 @@ impl<'a, M: Material> Subject<'a, M> {
             law.check_band(band, &Scale::default())?;
             subject.width = band.max_width();
         }
+        let rest = subject.rest();
+        subject.rest_stress = law.update(&rest, &law.initial())?.stress;
         for axis in 0..3 {
-            let stress = subject.at_strain(&uniaxial(axis, 1e-8))?.stress;
+            let stress = subject.at_strain(&uniaxial(axis, 1e-8))?.stress - subject.rest_stress;
             subject.stiffness = subject.stiffness.max(stress.max_abs() / 1e-8);
         }
-        let rest = subject.rest();
         subject.modulus = law.tangent(&rest, &law.initial())?;
         if contract.strain_scale.is_none() {
             subject.natural = subject.limit_of_linearity();
@@ -71,7 +75,7 @@ impl<'a, M: Material> Subject<'a, M> {
             while size < smallest {
                 let strain = direction * size;
                 let linear = self.at_strain(&strain).is_ok_and(|response| {
-                    let difference = (response.stress - self.modulus.apply(&strain)).max_abs();
+                    let difference = (response.stress - self.linear(&strain)).max_abs();
                     response.state == self.law.initial()
                         && response.dissipated == 0.0
                         && difference <= 0.1 * self.stiffness * size
@@ -83,6 +87,14 @@ impl<'a, M: Material> Subject<'a, M> {
             }
         }
         smallest
+    }
+
+    /// Cauchy stress of a symmetric strain from rest, to first order in it.
+    fn linear(&self, strain: &Sym) -> Sym {
+        let (rest, convected) = (self.rest_stress, strain.to_matrix());
+        self.modulus.apply(strain)
+            + rest * (1.0 - strain.trace())
+            + Sym::from_matrix(&(convected * rest.to_matrix())) * 2.0
     }
 
     /// The zero increment at rest.
