@@ -15,6 +15,7 @@
 //! # Ok::<(), fissure_materials::MaterialError>(())
 //! ```
 
+mod anisotropic_damage;
 mod biot;
 pub mod contract;
 mod cracking;
@@ -30,11 +31,14 @@ mod neo_hookean;
 mod path;
 mod plane_stress;
 mod point;
+mod rotated;
 pub mod softening;
+mod tension_shear;
 #[cfg(test)]
 mod testing;
 mod turning;
 
+pub use anisotropic_damage::{AnisotropicDamage, AnisotropicDamageState, MixedMode, Mode};
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
@@ -49,3 +53,4 @@ pub use path::{Axis, Component, Control, Leg, Path};
 pub use plane_stress::{PlaneStress, PlaneStressState};
 pub use point::{Point, PointError, Sample};
 pub use softening::Softening;
+pub use tension_shear::Onset;
