@@ -33,6 +33,8 @@
 mod crack;
 mod mode;
 mod tangent;
+#[cfg(test)]
+mod tests;
 
 use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 
