@@ -31,6 +31,8 @@
 //! In the step in which a crack starts its plane is that of the end of the step.
 
 mod crack;
+mod ellipse;
+mod elliptical;
 mod mode;
 mod tangent;
 #[cfg(test)]
@@ -39,6 +41,7 @@ mod tests;
 use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 
 pub use self::crack::{AnisotropicDamageState, MixedMode};
+pub use self::elliptical::{EllipticalDamage, EllipticalState};
 pub use self::mode::Mode;
 
 use self::crack::{CrackAt, Demand, Moved};

@@ -38,7 +38,9 @@ mod tension_shear;
 mod testing;
 mod turning;
 
-pub use anisotropic_damage::{AnisotropicDamage, AnisotropicDamageState, MixedMode, Mode};
+pub use anisotropic_damage::{
+    AnisotropicDamage, AnisotropicDamageState, EllipticalDamage, EllipticalState, MixedMode, Mode,
+};
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
