@@ -1,5 +1,7 @@
 //! Reads the reference histories.
 
+#![allow(dead_code)] // each test file uses its part
+
 use std::path::Path;
 
 use fissure_materials::{Matrix3, Softening, Sym};
