@@ -114,5 +114,9 @@ fn main() -> Result<(), MaterialError> {
             b / base
         );
     }
+    println!(
+        "state: {} bytes",
+        size_of::<<AnisotropicDamage as Material>::State>()
+    );
     Ok(())
 }

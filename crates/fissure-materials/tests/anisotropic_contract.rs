@@ -24,8 +24,10 @@ fn law() -> AnisotropicDamage {
 }
 
 fn passes(law: &impl Cracking) {
-    let message = contract::check_cracking(law).err().map(|v| v.to_string());
-    assert_eq!(message.unwrap_or_default(), "");
+    match contract::check_cracking(law) {
+        Ok(summary) => println!("one step against 1000: {:e}", summary.step_error),
+        Err(violation) => panic!("{violation}"),
+    }
 }
 
 /// With fewer samples and another seed.
