@@ -34,6 +34,7 @@ mod crack;
 mod ellipse;
 mod elliptical;
 mod mode;
+mod orthotropic;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -43,6 +44,7 @@ use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 pub use self::crack::{AnisotropicDamageState, MixedMode};
 pub use self::elliptical::{EllipticalDamage, EllipticalState};
 pub use self::mode::Mode;
+pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
 
 use self::crack::{CrackAt, Demand, Moved};
 use self::tangent::Start;
@@ -362,16 +364,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
             "finite and >= 0",
         )?;
         check_parameter(NAME, "thermal_expansion", expansion, true, "finite")?;
-        if let MixedMode::Coupled {
-            opening_exponent,
-            shear_exponent,
-        } = self.mixed
-        {
-            let rule = "finite and > 0";
-            let (m, n) = (opening_exponent, shear_exponent);
-            check_parameter(NAME, "mixed.opening_exponent", m, m > 0.0, rule)?;
-            check_parameter(NAME, "mixed.shear_exponent", n, n > 0.0, rule)?;
-        }
+        self.mixed.check(NAME)?;
         if let Onset::Prescribed(normal) = self.onset {
             let length = normal.norm();
             check_parameter(NAME, "onset", length, length > 0.0, "finite, not zero")?;
@@ -501,35 +494,10 @@ impl<N: Softening, T: Softening> Cracking for AnisotropicDamage<N, T> {
         if state.width == 0.0 {
             return Vec::new();
         }
-        let opening = self.opening.at(
-            self.elastic.p_wave_modulus(),
-            state.width,
-            &Scale::default(),
-        );
-        let shear = self
-            .shear
-            .at(self.elastic.shear_modulus(), state.width, &Scale::default());
-        let fraction =
-            opening.dissipated_fraction(state.opened) + shear.dissipated_fraction(state.sheared);
-        vec![Crack {
-            normal: Vector3::from(state.normal),
-            opening: state.opening,
-            width: state.width,
-            strength_ratio: if state.failed {
-                0.0
-            } else {
-                self.opening.softening.ratio(state.opened)
-            },
-            dissipated_fraction: if state.failed { 1.0 } else { fraction.min(1.0) },
-            failed: state.failed,
-        }]
+        vec![self.crack_at(&Scale::default(), state).described(state)]
     }
 
     fn irreversible(&self, state: &AnisotropicDamageState) -> Vec<f64> {
-        vec![
-            state.opened,
-            state.sheared,
-            f64::from(u8::from(state.failed)),
-        ]
+        state.irreversible()
     }
 }

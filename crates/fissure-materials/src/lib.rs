@@ -39,7 +39,8 @@ mod testing;
 mod turning;
 
 pub use anisotropic_damage::{
-    AnisotropicDamage, AnisotropicDamageState, EllipticalDamage, EllipticalState, MixedMode, Mode,
+    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, EllipticalState,
+    MixedMode, Mode, OrthotropicDamage,
 };
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};

@@ -4,9 +4,11 @@
 //! `FISSURE_FUZZ=10000000 cargo test --release -p fissure-materials --test anisotropic_fuzz -- --nocapture`
 
 use fissure_materials::{
-    AnisotropicDamage, Band, Cracking, EllipticalDamage, Increment, Isotropic, Material, Matrix3,
-    MixedMode, Mode, Onset, PlaneStress, contract::Random, softening::Linear,
+    AnisotropicDamage, Band, Cracking, DamagePlane, EllipticalDamage, Increment, Isotropic,
+    Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, Tangent, Vector3,
+    contract::Random, softening::Linear,
 };
+use fissure_tensor::Matrix6;
 
 fn law() -> AnisotropicDamage {
     let mode = |strength, toughness| Mode {
@@ -93,7 +95,7 @@ fn holds<M: Cracking>(name: &str, law: &M, plane: bool) {
     let updates = std::env::var("FISSURE_FUZZ")
         .ok()
         .and_then(|text| text.parse().ok())
-        .unwrap_or(100_000);
+        .unwrap_or(50_000);
     let counts = fuzz(law, plane, updates);
     println!("{name}: {counts:?}");
     assert_eq!(counts.not_finite, 0, "{name}");
@@ -115,6 +117,28 @@ fn any_step_in_space() {
         ..law()
     };
     holds("uncoupled, friction", &uncoupled, false);
+}
+
+/// Stiffness like a softwood's, three planes.
+#[test]
+fn any_step_of_orthotropic_material() {
+    let mut stiffness = Matrix6::from_diagonal(&[12e9, 1.1e9, 0.8e9, 0.1e9, 1.4e9, 2.0e9].into());
+    for (i, j, value) in [(0, 1, 0.6e9), (0, 2, 0.5e9), (1, 2, 0.4e9)] {
+        stiffness[(i, j)] = value;
+        stiffness[(j, i)] = value;
+    }
+    let plane = |normal| DamagePlane {
+        normal,
+        opening: law().opening,
+        shear: law().shear,
+    };
+    let wood = OrthotropicDamage {
+        density: 500.0,
+        stiffness: Tangent(stiffness),
+        planes: [Vector3::x(), Vector3::y(), Vector3::z()].map(plane),
+        mixed: MixedMode::default(),
+    };
+    holds("orthotropic", &wood, false);
 }
 
 /// The withdrawn variant: every solve is a bisection, so that it always returns.

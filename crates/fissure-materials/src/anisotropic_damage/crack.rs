@@ -4,7 +4,7 @@ use fissure_tensor::{Sym, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::mode::ModeAt;
-use crate::{Isotropic, Softening};
+use crate::{Crack, Isotropic, MaterialError, Softening, check_parameter};
 
 /// When a crack that opens and shears at once has failed [Nairn 2017, eq. 34].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,22 @@ pub enum MixedMode {
     },
     /// Each mode softens to its own end: the stress has no jump.
     Uncoupled,
+}
+
+impl MixedMode {
+    pub(super) fn check(&self, law: &'static str) -> Result<(), MaterialError> {
+        let Self::Coupled {
+            opening_exponent,
+            shear_exponent,
+        } = *self
+        else {
+            return Ok(());
+        };
+        let rule = "finite and > 0";
+        let (m, n) = (opening_exponent, shear_exponent);
+        check_parameter(law, "mixed.opening_exponent", m, m > 0.0, rule)?;
+        check_parameter(law, "mixed.shear_exponent", n, n > 0.0, rule)
+    }
 }
 
 impl Default for MixedMode {
@@ -50,6 +66,13 @@ pub struct AnisotropicDamageState {
     pub left_over: f64,
     /// Whether the crack carries no more tension.
     pub failed: bool,
+}
+
+impl AnisotropicDamageState {
+    /// What never falls.
+    pub(super) fn irreversible(&self) -> Vec<f64> {
+        vec![self.opened, self.sheared, f64::from(u8::from(self.failed))]
+    }
 }
 
 /// What a strain does to a crack: the effective normal strain `ε_n` (eq. 9) and the engineering
@@ -249,6 +272,24 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
                     * demand.shear.norm_squared());
         state.left_over = left * state.width;
         left
+    }
+
+    /// What measures see of the crack.
+    pub fn described(&self, state: &AnisotropicDamageState) -> Crack {
+        let fraction = self.opening.dissipated_fraction(state.opened)
+            + self.shear.dissipated_fraction(state.sheared);
+        Crack {
+            normal: Vector3::from(state.normal),
+            opening: state.opening,
+            width: state.width,
+            strength_ratio: if state.failed {
+                0.0
+            } else {
+                self.opening.softening.ratio(state.opened)
+            },
+            dissipated_fraction: if state.failed { 1.0 } else { fraction.min(1.0) },
+            failed: state.failed,
+        }
     }
 
     /// `1 − d` of both modes.

@@ -125,20 +125,10 @@ impl Start<'_> {
 
     /// Rate of `T` when the band widens as the normal turns, in space.
     fn widening(&self, normal_rate: &Vector3<f64>, rotation_rate: &Matrix3<f64>) -> Sym {
-        const ANGLE: f64 = 1e-6;
-        if matches!(self.band, Band::Uniform(_)) {
-            return Sym::ZERO;
-        }
         let rotation = &self.kinematics.rotation;
         let spatial = rotation * self.normal;
         let rate = rotation_rate * self.normal + rotation * normal_rate;
-        let size = rate.norm();
-        if size == 0.0 {
-            return Sym::ZERO;
-        }
-        let side = rate * (ANGLE / size);
-        let width_rate = (self.band.width(&(spatial + side)) - self.band.width(&(spatial - side)))
-            * (size / (2.0 * ANGLE));
+        let width_rate = width_rate(self.band, &spatial, &rate);
         let [opening, sliding] = self.moved.slopes.widening;
         let direction = &self.moved.slopes.direction;
         let per_width = self.elastic.stress(&Sym::dyad(&self.normal))
@@ -146,4 +136,15 @@ impl Start<'_> {
             + Sym::dyad_of(&self.normal, direction) * (2.0 * sliding);
         per_width * (width_rate / self.width)
     }
+}
+
+/// Rate of the width of a band when the spatial normal turns.
+pub(super) fn width_rate(band: &Band, normal: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
+    const ANGLE: f64 = 1e-6;
+    let size = rate.norm();
+    if matches!(band, Band::Uniform(_)) || size == 0.0 {
+        return 0.0;
+    }
+    let side = rate * (ANGLE / size);
+    (band.width(&(normal + side)) - band.width(&(normal - side))) * (size / (2.0 * ANGLE))
 }
