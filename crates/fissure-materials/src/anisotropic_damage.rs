@@ -30,9 +30,10 @@
 //!
 //! In the step in which a crack starts its plane is that of the end of the step.
 
+mod circle;
 mod crack;
 mod ellipse;
-mod elliptical;
+mod incremental;
 mod mode;
 mod orthotropic;
 mod tangent;
@@ -42,7 +43,9 @@ mod tests;
 use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 
 pub use self::crack::{AnisotropicDamageState, MixedMode};
-pub use self::elliptical::{EllipticalDamage, EllipticalState};
+pub use self::incremental::{
+    EllipticalDamage, IncrementalDamage, IncrementalState, SteppedCircleDamage,
+};
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
 

@@ -39,8 +39,8 @@ mod testing;
 mod turning;
 
 pub use anisotropic_damage::{
-    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, EllipticalState,
-    MixedMode, Mode, OrthotropicDamage,
+    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
+    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
 };
 pub use biot::Biot;
 pub use cracking::{Crack, Cracking, Initiation};

@@ -5,8 +5,8 @@
 
 use fissure_materials::{
     AnisotropicDamage, Band, Cracking, DamagePlane, EllipticalDamage, Increment, Isotropic,
-    Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, Tangent, Vector3,
-    contract::Random, softening::Linear,
+    Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, SteppedCircleDamage,
+    Tangent, Vector3, contract::Random, softening::Linear,
 };
 use fissure_tensor::Matrix6;
 
@@ -141,10 +141,11 @@ fn any_step_of_orthotropic_material() {
     holds("orthotropic", &wood, false);
 }
 
-/// The withdrawn variant: every solve is a bisection, so that it always returns.
+/// The variants for comparison: every solve is bracketed, so that it always returns.
 #[test]
-fn any_step_of_the_ellipse() {
-    holds("ellipse", &EllipticalDamage(law()), false);
+fn any_step_of_the_ellipse_and_the_stepped_circle() {
+    holds("ellipse", &EllipticalDamage::new(law()), false);
+    holds("stepped circle", &SteppedCircleDamage::new(law()), false);
 }
 
 #[test]

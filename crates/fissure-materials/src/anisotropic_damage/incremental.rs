@@ -1,43 +1,56 @@
-//! The document's two shear damages on an ellipse [Nairn 2017, eqs 20-25], which its authors
-//! withdrew in 2020.
+//! The shear of the document advanced by increments: on the ellipse that its authors withdrew
+//! [Nairn 2017, eqs 20-25], or on a circle as their later code does. For comparing with them.
 //!
-//! Opening is that of [`AnisotropicDamage`]; the shear along each of two axes in the crack's plane
-//! has its own damage, coupled by the ellipse of fig. 2 (`ellipse.rs`). It is kept to reproduce the
-//! paper, and is *not objective*: what it answers depends on the two axes, which nothing physical
-//! chooses (sheared along an axis or halfway between them it reaches the same peak of 20 MPa, but
-//! just before failure it carries 0.12 or 10.1 MPa). Nor are stored plus dissipated energy
-//! the work: with both shears damaged the tractions are not the secant ones that eq. 24 speaks of.
-//! Use [`AnisotropicDamage`] for anything else.
+//! Opening is that of [`AnisotropicDamage`]. The shear traction along two axes in the crack's plane
+//! is advanced by the increment of the strain (`ellipse.rs`, `circle.rs`), so that the answer depends
+//! on the steps; [`AnisotropicDamage`] is the limit of the circle for short steps, in a step of any
+//! size.
 //!
-//! The first axis is the second principal direction at onset in tension and the direction of the
-//! shear at onset in shear. Shear is advanced by the increment of the strain, failure (34) is judged
-//! at the end of the step; its friction and its tangent are not those of the other law (none, and
-//! the difference one).
+//! The ellipse has a damage for either axis and is *not objective*: what it answers depends on the
+//! two axes, which nothing physical chooses (sheared along an axis or halfway between them it
+//! reaches the same peak of 20 MPa, but just before failure it carries 0.12 or 10.1 MPa).
+//! Nor are stored plus dissipated energy the work: with both shears damaged the tractions are not
+//! the secant ones that eq. 24 speaks of. Use [`AnisotropicDamage`] for anything but a comparison.
+//!
+//! The first axis is a principal direction at onset in tension and the direction of the shear at
+//! onset in shear. Failure (34) is judged at the end of the step; there is no friction, and the
+//! tangent is the difference one.
 
 use fissure_tensor::{Band, Matrix3, Sym, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::crack::Demand;
-use super::ellipse::{Sheared, moved};
+use super::ellipse::Sheared;
 use super::mode::ModeAt;
 use super::{AnisotropicDamage, AnisotropicDamageState, MixedMode};
+use super::{circle, ellipse};
 use crate::softening::Linear;
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     Softening, check_parameter,
 };
 
-const NAME: &str = "anisotropic damage on an ellipse";
+const NAME: &str = "incremental anisotropic damage";
 
 /// The document's two shear damages on an ellipse [Nairn 2017, eqs 20-25], withdrawn by its authors:
-/// not objective (`OBJECTIVE = false`), and only for reproducing that paper. Parameters are those of
-/// [`AnisotropicDamage`], without friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EllipticalDamage<N = Linear, T = Linear>(pub AnisotropicDamage<N, T>);
+/// not objective (`OBJECTIVE = false`), and only for reproducing that paper.
+pub type EllipticalDamage<N = Linear, T = Linear> = IncrementalDamage<true, N, T>;
 
-/// History of [`EllipticalDamage`]. All zero until a crack starts.
+/// One shear damage on a circle, stepped as the authors' code does: only for reproducing its
+/// histories. [`AnisotropicDamage`] is its limit for short steps.
+pub type SteppedCircleDamage<N = Linear, T = Linear> = IncrementalDamage<false, N, T>;
+
+/// Anisotropic damage with the shear advanced by increments, on an ellipse or a circle, for comparison
+/// with the authors' results; see [`EllipticalDamage`] and [`SteppedCircleDamage`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IncrementalDamage<const ELLIPSE: bool, N = Linear, T = Linear> {
+    /// Parameters; without friction.
+    pub parameters: AnisotropicDamage<N, T>,
+}
+
+/// History of [`IncrementalDamage`]. All zero until a crack starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct EllipticalState {
+pub struct IncrementalState {
     /// Unit normal of the crack in the reference configuration; zero if there is none.
     pub normal: [f64; 3],
     /// First axis in the crack's plane.
@@ -46,7 +59,8 @@ pub struct EllipticalState {
     pub width: f64,
     /// Dimensionless opening up to which the crack has softened.
     pub opened: f64,
-    /// Dimensionless slidings along the two axes up to which it has softened.
+    /// Dimensionless slidings along the two axes up to which it has softened; the first alone on a
+    /// circle.
     pub sheared: [f64; 2],
     /// Shear strain of the crack along the two axes now (engineering).
     pub shear_strain: [f64; 2],
@@ -56,7 +70,7 @@ pub struct EllipticalState {
     pub failed: bool,
 }
 
-impl EllipticalState {
+impl IncrementalState {
     fn frame(&self) -> [Vector3<f64>; 3] {
         let (normal, axis) = (Vector3::from(self.normal), Vector3::from(self.axis));
         [normal, axis, normal.cross(&axis)]
@@ -71,14 +85,14 @@ struct Modes<'a, N, T> {
 
 impl<N: Softening, T: Softening> Modes<'_, N, T> {
     /// Energy dissipated so far, J/m³: eq. 31 for each of the three.
-    fn spent(&self, state: &EllipticalState) -> f64 {
+    fn spent(&self, state: &IncrementalState) -> f64 {
         let [first, second] = state.sheared.map(|s| self.shear.dissipated_fraction(s));
         let opening = self.opening.dissipated_fraction(state.opened);
         (opening * self.opening.toughness + (first + second) * self.shear.toughness) / state.width
     }
 
     /// The sum of (34).
-    fn criterion(&self, state: &EllipticalState, mixed: &MixedMode) -> f64 {
+    fn criterion(&self, state: &IncrementalState, mixed: &MixedMode) -> f64 {
         let (m, n) = match mixed {
             MixedMode::Coupled {
                 opening_exponent,
@@ -93,12 +107,23 @@ impl<N: Softening, T: Softening> Modes<'_, N, T> {
     }
 }
 
-impl<N: Softening, T: Softening> EllipticalDamage<N, T> {
+impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE, N, T> {
+    /// With the parameters of the law.
+    pub fn new(parameters: AnisotropicDamage<N, T>) -> Self {
+        Self { parameters }
+    }
+
     fn modes(&self, width: f64, scale: &Scale) -> Modes<'_, N, T> {
-        let elastic = self.0.elastic.scaled(scale);
+        let elastic = self.parameters.elastic.scaled(scale);
         Modes {
-            opening: self.0.opening.at(elastic.p_wave_modulus(), width, scale),
-            shear: self.0.shear.at(elastic.shear_modulus(), width, scale),
+            opening: self
+                .parameters
+                .opening
+                .at(elastic.p_wave_modulus(), width, scale),
+            shear: self
+                .parameters
+                .shear
+                .at(elastic.shear_modulus(), width, scale),
         }
     }
 
@@ -109,8 +134,8 @@ impl<N: Softening, T: Softening> EllipticalDamage<N, T> {
         kinematics: &Biot,
         band: &Band,
         scale: &Scale,
-    ) -> Result<Option<EllipticalState>, MaterialError> {
-        let surface = self.0.surface(scale);
+    ) -> Result<Option<IncrementalState>, MaterialError> {
+        let surface = self.parameters.surface(scale);
         if surface.is_surely_below(stress) {
             return Ok(None);
         }
@@ -120,7 +145,7 @@ impl<N: Softening, T: Softening> EllipticalDamage<N, T> {
         }
         let normal = initiation.normal;
         let width = band.width(&(kinematics.rotation * normal));
-        self.0.check_width(width, scale)?;
+        self.parameters.check_width(width, scale)?;
         // Along the shear if there is one, else along a principal direction.
         let traction = stress.traction(&normal);
         let shear = traction - normal * normal.dot(&traction);
@@ -134,34 +159,37 @@ impl<N: Softening, T: Softening> EllipticalDamage<N, T> {
             across.unwrap_or_else(|| normal.cross(&Vector3::ith(normal.iamin(), 1.0)))
         };
         let axis = (axis - normal * normal.dot(&axis)).normalize();
-        Ok(Some(EllipticalState {
+        Ok(Some(IncrementalState {
             normal: normal.into(),
             axis: axis.into(),
             width,
-            ..EllipticalState::default()
+            ..IncrementalState::default()
         }))
     }
 
     /// The strain of the increment's start and end, without heat.
     fn strains(&self, increment: &Increment, end: &Biot) -> (Sym, Sym) {
-        let heat = Sym::IDENTITY * (self.0.thermal_expansion * increment.external.temperature);
+        let heat =
+            Sym::IDENTITY * (self.parameters.thermal_expansion * increment.external.temperature);
         let to = end.strain() - heat;
         let from = Biot::new(&increment.f_old).map_or(to, |start| start.strain() - heat);
         (from, to)
     }
 }
 
-impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
-    type State = EllipticalState;
-    /// The answer depends on the axes in the crack's plane.
-    const OBJECTIVE: bool = false;
+impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
+    for IncrementalDamage<ELLIPSE, N, T>
+{
+    type State = IncrementalState;
+    /// On the ellipse the answer depends on the axes in the crack's plane.
+    const OBJECTIVE: bool = !ELLIPSE;
     const HYPERELASTIC: bool = false;
     const NAMES: &'static [&'static str] =
         &["opening", "opened", "sheared_1", "sheared_2", "failed"];
 
     fn check(&self) -> Result<(), MaterialError> {
-        self.0.check()?;
-        let friction = self.0.friction;
+        self.parameters.check()?;
+        let friction = self.parameters.friction;
         check_parameter(
             NAME,
             "friction",
@@ -172,7 +200,7 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
     }
 
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
-        self.0.check_band(band, scale)
+        self.parameters.check_band(band, scale)
     }
 
     fn isotropic(&self) -> bool {
@@ -184,21 +212,21 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
     }
 
     fn density(&self) -> f64 {
-        self.0.density()
+        self.parameters.density()
     }
 
-    fn wave_speed(&self, f: &Matrix3<f64>, _state: &EllipticalState, scale: &Scale) -> f64 {
-        self.0
+    fn wave_speed(&self, f: &Matrix3<f64>, _state: &IncrementalState, scale: &Scale) -> f64 {
+        self.parameters
             .wave_speed(f, &AnisotropicDamageState::default(), scale)
     }
 
     fn update(
         &self,
         increment: &Increment,
-        old: &EllipticalState,
-    ) -> Result<Response<EllipticalState>, MaterialError> {
+        old: &IncrementalState,
+    ) -> Result<Response<IncrementalState>, MaterialError> {
         let scale = &increment.external.scale;
-        let elastic = self.0.elastic.scaled(scale);
+        let elastic = self.parameters.elastic.scaled(scale);
         let kinematics = Biot::new(&increment.f_new)?;
         let (from, to) = self.strains(increment, &kinematics);
         let undamaged = elastic.stress(&to);
@@ -226,6 +254,11 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
             if let Some(opened) = modes.opening.soften(end.normal, state.opened) {
                 state.opened = opened;
             }
+            let moved = if ELLIPSE {
+                ellipse::moved
+            } else {
+                circle::moved
+            };
             let sheared = moved(
                 &modes.shear,
                 &Sheared {
@@ -239,11 +272,11 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
             if shear != old_shear || state.width != old.width {
                 state.shear_strain = [0, 1].map(|i| shear[i] - sheared.traction[i]);
             }
-            if modes.criterion(&state, &self.0.mixed) >= 1.0 {
+            if modes.criterion(&state, &self.parameters.mixed) >= 1.0 {
                 let open = end.normal.max(0.0);
                 let opening = modes.opening.integrity(state.opened) * modes.opening.modulus;
                 released = 0.5 * opening * open * open
-                    + stored_in_shear(&modes.shear, &state, &sheared.traction);
+                    + stored_in_shear(&modes.shear, &state, &sheared.traction, ELLIPSE);
                 state.failed = true;
             }
         }
@@ -260,7 +293,7 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
         let traction = [0, 1].map(|i| shear[i] - state.shear_strain[i]);
         // Without the crack's shear, and then what the secant shear holds.
         let rest = 0.5 * biot_stress.dot(&(to - Sym::dyad_of(&normal, &end.shear)));
-        let stored = rest + stored_in_shear(&modes.shear, &state, &traction);
+        let stored = rest + stored_in_shear(&modes.shear, &state, &traction, ELLIPSE);
         Ok(Response {
             stress: kinematics.turned(&biot_stress),
             state,
@@ -269,7 +302,7 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
         })
     }
 
-    fn values(&self, state: &EllipticalState, out: &mut [f64]) {
+    fn values(&self, state: &IncrementalState, out: &mut [f64]) {
         out[0] = state.opening;
         out[1] = state.opened;
         out[2] = state.sheared[0];
@@ -281,11 +314,17 @@ impl<N: Softening, T: Softening> Material for EllipticalDamage<N, T> {
 /// `Σ τ_i²/(2 (1−d_i) G)` of tractions over `G`, J/m³.
 fn stored_in_shear<T: Softening>(
     shear: &ModeAt<'_, T>,
-    state: &EllipticalState,
+    state: &IncrementalState,
     traction: &[f64; 2],
+    ellipse: bool,
 ) -> f64 {
     let terms = [0, 1].map(|i| {
-        let integrity = shear.integrity(state.sheared[i]);
+        let softened = if ellipse {
+            state.sheared[i]
+        } else {
+            state.sheared[0]
+        };
+        let integrity = shear.integrity(softened);
         if state.failed || integrity == 0.0 {
             0.0
         } else {
@@ -295,29 +334,31 @@ fn stored_in_shear<T: Softening>(
     0.5 * shear.modulus * (terms[0] + terms[1])
 }
 
-impl<N: Softening, T: Softening> Cracking for EllipticalDamage<N, T> {
+impl<const ELLIPSE: bool, N: Softening, T: Softening> Cracking
+    for IncrementalDamage<ELLIPSE, N, T>
+{
     fn toughness(&self, scale: &Scale) -> f64 {
-        self.0.toughness(scale)
+        self.parameters.toughness(scale)
     }
 
     fn strength(&self, scale: &Scale) -> f64 {
-        self.0.strength(scale)
+        self.parameters.strength(scale)
     }
 
     fn critical_opening(&self, scale: &Scale) -> f64 {
-        self.0.critical_opening(scale)
+        self.parameters.critical_opening(scale)
     }
 
     fn band_limit(&self, scale: &Scale) -> f64 {
-        self.0.band_limit(scale)
+        self.parameters.band_limit(scale)
     }
 
     fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        self.0.driving_stress(f, cauchy)
+        self.parameters.driving_stress(f, cauchy)
     }
 
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        self.0.failure_along(stress, normal, scale)
+        self.parameters.failure_along(stress, normal, scale)
     }
 
     fn associated(&self) -> bool {
@@ -325,10 +366,10 @@ impl<N: Softening, T: Softening> Cracking for EllipticalDamage<N, T> {
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.0.initiation(stress, scale)
+        self.parameters.initiation(stress, scale)
     }
 
-    fn cracks(&self, state: &EllipticalState) -> Vec<Crack> {
+    fn cracks(&self, state: &IncrementalState) -> Vec<Crack> {
         if state.width == 0.0 {
             return Vec::new();
         }
@@ -342,14 +383,14 @@ impl<N: Softening, T: Softening> Cracking for EllipticalDamage<N, T> {
             strength_ratio: if state.failed {
                 0.0
             } else {
-                self.0.opening.softening.ratio(state.opened)
+                self.parameters.opening.softening.ratio(state.opened)
             },
             dissipated_fraction: if state.failed { 1.0 } else { fraction.min(1.0) },
             failed: state.failed,
         }]
     }
 
-    fn irreversible(&self, state: &EllipticalState) -> Vec<f64> {
+    fn irreversible(&self, state: &IncrementalState) -> Vec<f64> {
         let [first, second] = state.sheared;
         vec![
             state.opened,

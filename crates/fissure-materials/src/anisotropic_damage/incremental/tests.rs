@@ -13,7 +13,7 @@ fn law() -> EllipticalDamage {
         poisson: 0.33,
     };
     // The axes are y and z: the crack is across x, and no shear at onset turns them.
-    EllipticalDamage(AnisotropicDamage {
+    EllipticalDamage::new(AnisotropicDamage {
         onset: Onset::Prescribed(Vector3::x()),
         ..AnisotropicDamage::new(elastic, mode(30e6, 1e3), mode(20e6, 1.5e3))
     })
