@@ -32,11 +32,13 @@
 
 mod circle;
 mod crack;
+mod cracking;
 mod ellipse;
 mod incremental;
 mod mode;
 mod orthotropic;
 mod tangent;
+mod tensors;
 #[cfg(test)]
 mod tests;
 
@@ -55,8 +57,8 @@ use crate::rotated::left_strain;
 use crate::softening::Linear;
 use crate::tension_shear::TensionShear;
 use crate::{
-    Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Onset,
-    Response, Scale, Softening, check_parameter,
+    Biot, Increment, Isotropic, Material, MaterialError, Onset, Response, Scale, Softening,
+    check_parameter,
 };
 
 const NAME: &str = "anisotropic damage";
@@ -112,50 +114,6 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
             friction: 0.0,
             thermal_expansion: 0.0,
         }
-    }
-
-    /// The damage tensor `D` of `T = (1 − D):C:E` in the reference axes (eqs 1 and 3), between
-    /// Mandel components: `D = (d_n/C₁₁) (C:n⊗n) ⊗ (n⊗n) + d_t Σ_t s_t⊗s_t/2`, `s_t = n⊗t + t⊗n`.
-    /// For an open crack; under pressure `d_n` has no effect.
-    pub fn damage_tensor(&self, state: &AnisotropicDamageState, scale: &Scale) -> Tangent {
-        if state.width == 0.0 {
-            return Tangent::zero();
-        }
-        let elastic = self.elastic.scaled(scale);
-        let normal = Vector3::from(state.normal);
-        let (opening, sliding) = self.crack_at(scale, state).integrities(state);
-        let dyad = Sym::dyad(&normal);
-        let mut damage = Tangent::dyad(&elastic.stress(&dyad), &dyad)
-            * ((1.0 - opening) / elastic.p_wave_modulus());
-        let (first, second) = tangent::tangents(&normal, &Vector3::zeros());
-        for tangential in [first, second] {
-            let shear = Sym::dyad_of(&normal, &tangential) * 2.0;
-            damage = damage + Tangent::dyad(&shear, &shear) * (0.5 * (1.0 - sliding));
-        }
-        damage
-    }
-
-    /// The damage strain partitioning tensor `Δ = ∂ε_c/∂E` at the end of an increment (eqs 6, 7, 10,
-    /// 11), between Mandel components, for a crack whose plane is fixed: the part of a strain
-    /// increment that goes to the crack. Zero without a crack.
-    ///
-    /// # Errors
-    /// As [`Material::update`].
-    pub fn partitioning_tensor(
-        &self,
-        increment: &Increment,
-        old: &AnisotropicDamageState,
-    ) -> Result<Tangent, MaterialError> {
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&kinematics, increment, old)?;
-        let elastic = self.elastic.scaled(&increment.external.scale);
-        let Some((moved, _)) = step.crack else {
-            return Ok(Tangent::zero());
-        };
-        let modulus = tangent::modulus(&elastic, &moved.state.normal.into(), &moved.slopes);
-        let compliance = elastic.stiffness().0.try_inverse();
-        let compliance = Tangent(compliance.unwrap_or_else(fissure_tensor::Matrix6::zeros));
-        Ok(Tangent::identity() - Tangent::double_contraction(&compliance, &modulus))
     }
 
     fn surface(&self, scale: &Scale) -> TensionShear {
@@ -456,51 +414,5 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         out[4] = crack.shear.dissipated_fraction(state.sheared) * self.shear.toughness;
         out[5] = state.left_over;
         out[6] = f64::from(u8::from(state.failed));
-    }
-}
-
-impl<N: Softening, T: Softening> Cracking for AnisotropicDamage<N, T> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.opening.toughness * scale.toughness
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.opening.strength * scale.strength
-    }
-
-    fn critical_opening(&self, scale: &Scale) -> f64 {
-        self.opening.softening.critical() * self.toughness(scale) / self.strength(scale)
-    }
-
-    fn band_limit(&self, scale: &Scale) -> f64 {
-        self.limit(scale)
-    }
-
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        Ok(cauchy.rotated(&Biot::new(f)?.rotation.transpose()))
-    }
-
-    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        self.surface(scale).value_along(stress, normal)
-    }
-
-    /// The stress `R·T·Rᵀ` has no potential at finite strain.
-    fn associated(&self) -> bool {
-        false
-    }
-
-    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.surface(scale).asked(stress).initiation
-    }
-
-    fn cracks(&self, state: &AnisotropicDamageState) -> Vec<Crack> {
-        if state.width == 0.0 {
-            return Vec::new();
-        }
-        vec![self.crack_at(&Scale::default(), state).described(state)]
-    }
-
-    fn irreversible(&self, state: &AnisotropicDamageState) -> Vec<f64> {
-        state.irreversible()
     }
 }

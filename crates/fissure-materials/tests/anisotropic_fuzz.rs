@@ -3,6 +3,8 @@
 //!
 //! `FISSURE_FUZZ=10000000 cargo test --release -p fissure-materials --test anisotropic_fuzz -- --nocapture`
 
+#![allow(clippy::print_stdout, clippy::panic)] // figures for the docs
+
 use fissure_materials::{
     AnisotropicDamage, Band, Cracking, DamagePlane, EllipticalDamage, Increment, Isotropic,
     Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, SteppedCircleDamage,

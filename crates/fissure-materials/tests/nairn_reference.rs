@@ -1,5 +1,7 @@
 //! Anisotropic damage against histories computed by the authors' own code (tests/data/nairn).
 
+#![allow(clippy::print_stdout, clippy::panic)] // figures for the docs
+
 mod nairn;
 
 use fissure_materials::{

@@ -66,7 +66,7 @@ fn it_is_not_objective() -> Result<(), MaterialError> {
         let tractions = sheared(angle, &[0.2], 2000)?;
         let peak = tractions.iter().copied().fold(0.0, f64::max);
         assert!((peak / 20e6 - 1.0).abs() < 5e-3, "{peak}");
-        let before_failure = tractions.iter().copied().filter(|t| *t > 1e3).next_back();
+        let before_failure = tractions.iter().copied().rfind(|t| *t > 1e3);
         last.push(before_failure.expect("a traction"));
     }
     println!("traction just before failure along an axis and halfway between: {last:?} Pa");
