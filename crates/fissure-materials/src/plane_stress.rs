@@ -210,8 +210,6 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
         self.0.band_limit(scale) * self.relief(scale)
     }
 
-    /// Of the in-plane gradient: a law that reads more than its rotation wants the stretch that the
-    /// state holds.
     fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
         self.0.driving_stress(f, cauchy)
     }
