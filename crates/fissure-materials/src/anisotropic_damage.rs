@@ -116,6 +116,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
     }
 
+    #[inline]
     fn surface(&self, scale: &Scale) -> TensionShear {
         TensionShear {
             onset: self.onset,
@@ -187,6 +188,18 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
                 stored: 0.5 * stress.dot(&strain),
                 dissipated: 0.0,
             })
+    }
+
+    /// The update with everything. Out of line: the way through `sound` is not to pay for it.
+    #[inline(never)]
+    fn full_update(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+    ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step(&kinematics, increment, old)?;
+        Ok(self.response(&kinematics, &step, old))
     }
 
     fn step(
@@ -370,12 +383,10 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         increment: &Increment,
         old: &AnisotropicDamageState,
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
-        if let Some(response) = self.sound(increment, old) {
-            return Ok(response);
+        match self.sound(increment, old) {
+            Some(response) => Ok(response),
+            None => self.full_update(increment, old),
         }
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&kinematics, increment, old)?;
-        Ok(self.response(&kinematics, &step, old))
     }
 
     fn tangent(
