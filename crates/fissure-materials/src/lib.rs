@@ -15,6 +15,7 @@
 //! # Ok::<(), fissure_materials::MaterialError>(())
 //! ```
 
+mod anisotropic_damage;
 mod biot;
 mod cohesive;
 pub mod contract;
@@ -37,14 +38,20 @@ mod orthotropic;
 mod path;
 mod plane_stress;
 mod point;
+mod rotated;
 mod scalar_damage;
 pub mod softening;
+mod tension_shear;
 #[cfg(test)]
 mod testing;
 mod thermal;
 mod turning;
 mod viscous_damage;
 
+pub use anisotropic_damage::{
+    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
+    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+};
 pub use biot::Biot;
 pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};
 pub use cracking::{Crack, Cracking, Initiation};
@@ -69,5 +76,6 @@ pub use scalar_damage::{
     ScalarDamageState,
 };
 pub use softening::Softening;
+pub use tension_shear::Onset;
 pub use thermal::{Expansion, Thermal, ThermalState};
 pub use viscous_damage::{DamageSurface, Relaxation, ViscousDamage, ViscousDamageState};

@@ -67,6 +67,13 @@ pub trait Material: Send + Sync + 'static {
         true
     }
 
+    /// Whether the stress is continuous in the end of a step. A law in which something drops at once
+    /// (a failure that leaves a traction, a crack that starts on another plane by a hair's breadth)
+    /// says `false`, and the contract checks leave the jumps of P11 out.
+    fn continuous(&self) -> bool {
+        true
+    }
+
     /// Reference mass density, kg/m³.
     fn density(&self) -> f64;
 

@@ -8,7 +8,7 @@ mod balance;
 #[cfg(test)]
 mod tests;
 
-use fissure_tensor::{Band, Matrix3, Sym, Tangent};
+use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use self::balance::{Solved, with_thickness};
@@ -140,6 +140,10 @@ impl<M: Material> Material for PlaneStress<M> {
         self.0.isotropic()
     }
 
+    fn continuous(&self) -> bool {
+        self.0.continuous()
+    }
+
     fn density(&self) -> f64 {
         self.0.density()
     }
@@ -204,6 +208,18 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
 
     fn band_limit(&self, scale: &Scale) -> f64 {
         self.0.band_limit(scale) * self.relief(scale)
+    }
+
+    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
+        self.0.driving_stress(f, cauchy)
+    }
+
+    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.0.failure_along(stress, normal, scale)
+    }
+
+    fn associated(&self) -> bool {
+        self.0.associated()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
