@@ -31,6 +31,7 @@ mod path;
 mod plane_stress;
 mod point;
 pub mod softening;
+mod sound;
 #[cfg(test)]
 mod testing;
 mod turning;
