@@ -18,6 +18,7 @@
 mod biot;
 pub mod contract;
 mod cracking;
+pub mod criteria;
 mod decohesive;
 mod equilibrium;
 mod error;
