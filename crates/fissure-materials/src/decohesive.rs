@@ -21,7 +21,7 @@ use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
     softening::{Linear, opening},
-    sound::sound,
+    sound::{below, sound},
     turning::Turning,
 };
 
@@ -328,7 +328,9 @@ impl<S: Softening> Point<'_, S> {
         if old.width != 0.0 {
             return Ok(None);
         }
-        sound(&self.elastic, self.strength, &increment.f_new)
+        sound(&self.elastic, &increment.f_new, |stress| {
+            below(self.strength, stress)
+        })
     }
 
     fn response(
