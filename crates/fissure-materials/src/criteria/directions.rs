@@ -45,7 +45,7 @@ pub(crate) fn maximise(
             best = refined;
         }
     }
-    best
+    polish(&function, best, domain)
 }
 
 fn scan(domain: Domain, parts: u32, mut visit: impl FnMut(Vector3<f64>)) {
@@ -99,6 +99,71 @@ fn keep(kept: &mut [(f64, Vector3<f64>); KEPT], value: f64, direction: Vector3<f
     }
 }
 
+/// Two unit tangents at a direction.
+fn tangents(at: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let other = if at.z.abs() < 0.9 {
+        Vector3::z()
+    } else {
+        Vector3::x()
+    };
+    let first = at.cross(&other).normalize();
+    [first, at.cross(&first)]
+}
+
+/// A maximum is flat, so comparing values finds it to the root of round-off only. Where the
+/// function is smooth, Newton's method on its slopes, differences of fourth order, goes on to
+/// round-off.
+fn polish(
+    function: &impl Fn(&Vector3<f64>) -> f64,
+    best: (f64, Vector3<f64>),
+    domain: Domain,
+) -> (f64, Vector3<f64>) {
+    const H: f64 = 2e-3;
+    let mut at = best.1;
+    for _ in 0..4 {
+        let [first, second] = tangents(&at);
+        let value =
+            |a: f64, b: f64| function(&(at + first * (a * H) + second * (b * H)).normalize());
+        let here = value(0.0, 0.0);
+        let along = |a: f64, b: f64| {
+            let (far_back, back) = (value(-2.0 * a, -2.0 * b), value(-a, -b));
+            let (front, far) = (value(a, b), value(2.0 * a, 2.0 * b));
+            let slope = (8.0 * (front - back) - (far - far_back)) / 12.0;
+            let bend = (16.0 * (front + back) - (far + far_back) - 30.0 * here) / 12.0;
+            (slope, bend)
+        };
+        let (slope, bend) = along(1.0, 0.0);
+        let step = if matches!(domain, Domain::Plane) {
+            first * (-slope / bend)
+        } else {
+            let (across, bend_across) = along(0.0, 1.0);
+            let mixed =
+                0.25 * (value(1.0, 1.0) + value(-1.0, -1.0) - value(1.0, -1.0) - value(-1.0, 1.0));
+            let determinant = bend * bend_across - mixed * mixed;
+            if !(bend < 0.0 && determinant > 1e-6 * bend * bend_across) {
+                return best; // a ridge, or no smooth maximum
+            }
+            first * ((mixed * across - bend_across * slope) / determinant)
+                + second * ((mixed * slope - bend * across) / determinant)
+        };
+        // Longer than the differences span: not the neighbourhood of a smooth maximum.
+        let size = step.norm();
+        if !(size < 1.0) {
+            return best;
+        }
+        at = (at + step * H).normalize();
+        if size < 1e-12 {
+            break;
+        }
+    }
+    let value = function(&at);
+    if value >= best.0 - 1e-12 * best.0.abs() {
+        (value.max(best.0), at)
+    } else {
+        best
+    }
+}
+
 fn refine(
     function: &impl Fn(&Vector3<f64>) -> f64,
     start: (f64, Vector3<f64>),
@@ -112,19 +177,13 @@ fn refine(
         if size < 1e-8 {
             break;
         }
-        let other = if at.z.abs() < 0.9 {
-            Vector3::z()
-        } else {
-            Vector3::x()
-        };
-        let first = at.cross(&other).normalize();
-        let second = at.cross(&first);
-        let tangents = match domain {
+        let [first, second] = tangents(&at);
+        let sides = match domain {
             Domain::Plane => [first, -first, first, -first],
             Domain::Octant | Domain::HalfSphere => [first, -first, second, -second],
         };
         let mut improved = false;
-        for tangent in tangents {
+        for tangent in sides {
             let next = (at + tangent * size).normalize();
             let there = function(&next);
             if there > value {

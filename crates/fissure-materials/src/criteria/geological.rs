@@ -158,6 +158,21 @@ impl Geological {
     /// F_n with its derivatives.
     #[inline]
     pub fn partials(&self, plane: &OnPlane, softening: f64) -> Partials {
+        self.evaluate(plane, softening, f64::NEG_INFINITY)
+    }
+
+    /// As [`partials`](Self::partials) with `f_n − s` held at zero from below: what drives the jump
+    /// of a plane. Where the stress along a plane exceeds the compressive strength (axial splitting)
+    /// `F_n` as printed asks for a *compressive* normal traction, against which the plane would
+    /// open: energy out of nothing, since that stress enters `F_n` but does no work on the jump.
+    /// Held, such a plane has lost its cohesion, and `τ·∂F_n/∂τ ≥ 0` on the surface.
+    #[inline]
+    pub fn flow_partials(&self, plane: &OnPlane, softening: f64) -> Partials {
+        self.evaluate(plane, softening, 0.0)
+    }
+
+    #[inline]
+    fn evaluate(&self, plane: &OnPlane, softening: f64, least_cohesion: f64) -> Partials {
         let (strength, f_c) = (self.strength, self.compressive_strength);
         let c = self.ratio();
         let spread = 2.0 - self.chi();
@@ -167,13 +182,20 @@ impl Geological {
         let s = softening * sigma_squared;
         let free = 2.0 - (plane.normal + plane.lateral_sum) / (3.0 * strength);
         let held = free.max(LEAST_PRESSURE_TERM);
-        let b = tau * (1.0 + self.normal_coupling * s) + s * (1.0 + tau / held) - softening;
+        // B = τ̄_n (1 + s (C_n + 1/P)) − (f_n − s).
+        let cohesion = (softening - s).max(least_cohesion);
+        let cohesive = if softening - s >= least_cohesion {
+            1.0
+        } else {
+            0.0
+        };
+        let b = tau * (1.0 + s * (self.normal_coupling + 1.0 / held)) - cohesion;
         let shrink = 1.0 / (1.0 + self.lateral_coupling * s);
         let (capacity, slope) = self.capacity(-c * b * shrink);
         // D_ψσ (3.5.74), D_σ̄ (3.5.76) and what P adds (3.5.77).
         let d_psi = slope * shrink;
-        let d_sigma =
-            1.0 + tau * self.normal_coupling + tau / held - self.lateral_coupling * b * shrink;
+        let d_sigma = cohesive + tau * (self.normal_coupling + 1.0 / held)
+            - self.lateral_coupling * b * shrink;
         let pressure = if free > LEAST_PRESSURE_TERM {
             tau * s / (3.0 * held * held * strength)
         } else {
@@ -187,8 +209,20 @@ impl Geological {
             shear_squared,
             lateral_sum: d_psi * pressure + per_sigma_squared * 2.0 * lateral / f_c,
             lateral_determinant: -per_sigma_squared * spread / (f_c * f_c),
-            softening: d_psi * (d_sigma * sigma_squared - 1.0),
+            softening: d_psi * (d_sigma * sigma_squared - cohesive),
         }
+    }
+
+    /// The normal traction at which a plane without shear starts to move, Pa: `B = 0`, cohesion held,
+    /// for the stress along the plane and `P` as they are.
+    pub(crate) fn tension(&self, plane: &OnPlane, softening: f64) -> f64 {
+        let f_c = self.compressive_strength;
+        let lateral = plane.lateral_sum / f_c;
+        let spread = 2.0 - self.chi();
+        let s = softening * (lateral * lateral - spread * plane.lateral_determinant / (f_c * f_c));
+        let free = 2.0 - (plane.normal + plane.lateral_sum) / (3.0 * self.strength);
+        let held = free.max(LEAST_PRESSURE_TERM);
+        self.strength * (softening - s).max(0.0) / (1.0 + s * (self.normal_coupling + 1.0 / held))
     }
 
     /// ∂F_n/∂σ for a plane of this unit normal, 1/Pa.

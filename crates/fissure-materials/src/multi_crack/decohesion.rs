@@ -47,6 +47,12 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     /// Whether the tangent is symmetric while no plane starts.
     fn associated(&self) -> bool;
 
+    /// Whether the plane that starts turns with the stress. Not where two planes are equally good:
+    /// then no choice does.
+    fn isotropic(&self) -> bool {
+        true
+    }
+
     /// Refuses parameters outside their range.
     ///
     /// # Errors
@@ -101,8 +107,9 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     /// Energy stored in the plane, J/m².
     fn stored(&self, elastic: &Isotropic, plane: &Plane) -> f64;
 
-    /// Energy dissipated between two states of a plane, both with their tractions, J/m².
-    fn dissipated(&self, elastic: &Isotropic, old: &Plane, new: &Plane) -> f64;
+    /// Energy dissipated between two states of a plane, both with their tractions, J/m²; `trial` is
+    /// that of the end of the step.
+    fn dissipated(&self, old: &Plane, new: &Plane, trial: &Trial) -> f64;
 }
 
 /// A failed plane: it opens freely from its seat on, and slides where the shear traction would
@@ -112,9 +119,16 @@ pub(super) fn contact(old: &Plane, trial: &Trial, limit: impl Fn(f64) -> f64) ->
     let traction = trial.normal_traction(old);
     let stiffness = trial.normal_stiffness(old);
     plane.opening = (traction / stiffness).max(old.seat);
-    let pressure = (stiffness * plane.opening - traction).max(0.0);
-    plane.slip = slide(old, trial, limit(pressure)).into();
+    plane.slip = slide(old, trial, limit(pressure(&plane, trial))).into();
     plane
+}
+
+/// What presses the faces of a plane together, Pa; exactly nothing on a failed one that is open.
+pub(super) fn pressure(plane: &Plane, trial: &Trial) -> f64 {
+    if plane.failed && plane.opening > plane.seat {
+        return 0.0;
+    }
+    (trial.normal_stiffness(plane) * plane.opening - trial.normal_traction(plane)).max(0.0)
 }
 
 /// Change of the slip with the shear traction and with the limit, where [`slide`] slides.
@@ -123,14 +137,17 @@ pub(super) fn slide_rate(
     trial: &Trial,
     limit: f64,
 ) -> Option<(Matrix3<f64>, Vector3<f64>)> {
-    let stiffness = trial.shear_stiffness(old);
+    let (normal, stiffness) = (old.normal(), trial.shear_stiffness(old));
+    let plane = Matrix3::identity() - normal * normal.transpose();
+    if limit == 0.0 {
+        return Some((plane / stiffness, Vector3::zeros()));
+    }
     let traction = trial.shear_traction(old) - old.slip() * stiffness;
     let size = traction.norm();
-    if size <= limit + trial.slack {
+    if size <= limit {
         return None;
     }
-    let (normal, along) = (old.normal(), traction / size);
-    let plane = Matrix3::identity() - normal * normal.transpose();
+    let along = traction / size;
     let stuck = limit / size;
     let with_traction = plane * (1.0 - stuck) + along * along.transpose() * stuck;
     Some((with_traction / stiffness, along / -stiffness))

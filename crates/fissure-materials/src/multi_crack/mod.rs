@@ -2,7 +2,7 @@
 //!
 //! `ε = εᵉ + Σ_j sym(u_j ⊗ n_j)/L_j` (4.5.15), `T = C:εᵉ`, with the Biot strain, so that the law is
 //! objective. What starts, opens and closes a plane is its [`Decohesion`]: [`ModeOne`] or
-//! All planes are returned together, until every `F_j` is within round-off of
+//! [`GeologicalFlow`]. All planes are returned together, until every `F_j` is within round-off of
 //! zero or below; the document's single pass over the planes leaves earlier ones violated by later.
 //!
 //! # When the coupled return is unique, and the threshold angle
@@ -22,8 +22,8 @@
 //!   opening descends to a local minimum of the incremental potential, unique where `A` is positive
 //!   definite.
 //!
-//! A direction within the threshold angle of an existing plane starts none: there the stress may
-//! exceed the strength. Nor does any start once `N` planes are stored.
+//! In a direction nearer than the threshold angle to a plane the stress may exceed the strength; no
+//! plane starts there, nor anywhere once `N` planes are stored.
 //!
 //! # Variants
 //! [`Planes::Fixed`] keeps the first plane alone. [`Planes::Multiple`] adds planes. [`Planes::Rotating`]
@@ -32,8 +32,11 @@
 //! at once and the response is steep.
 
 mod decohesion;
+mod dense;
+mod geological_flow;
 mod mode_one;
 mod relax;
+mod start;
 mod state;
 mod tangent;
 #[cfg(test)]
@@ -42,6 +45,7 @@ mod tests;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
 pub use decohesion::{Decohesion, Trial};
+pub use geological_flow::GeologicalFlow;
 pub use mode_one::{ModeOne, Shear, Unloading};
 pub use state::{MultiCrackState, Plane};
 
@@ -152,23 +156,23 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         if state.planes().len() >= self.most() || self.decohesion.upper_bound(stress) <= 0.0 {
             return Ok(None);
         }
-        let Initiation { value, mut normal } = self.decohesion.initiation(stress);
+        let width_of = |normal: &Vector3<f64>| band.width(&(kinematics.rotation * normal));
+        // Of two planes the wider band is the less stable.
+        let threshold = |normal: &Vector3<f64>, plane: &Plane| {
+            self.threshold(width_of(normal).max(plane.width))
+        };
+        let found = start::initiation(&self.decohesion, stress, state.planes(), threshold);
+        let Some(Initiation { value, mut normal }) = found else {
+            return Ok(None);
+        };
+        if value <= 0.0 {
+            return Ok(None);
+        }
         if self.planes == Planes::Rotating {
             // As in every later step, to the last bit.
             normal = kinematics.strain().spectrum().vectors[0];
         }
-        if value <= 0.0 {
-            return Ok(None);
-        }
-        let width = band.width(&(kinematics.rotation * normal));
-        // Of two planes the wider band is the less stable.
-        let near = |plane: &Plane| {
-            let sine_squared = normal.cross(&plane.normal()).norm_squared();
-            sine_squared < self.threshold(width.max(plane.width))
-        };
-        if state.planes().iter().any(near) {
-            return Ok(None);
-        }
+        let width = width_of(&normal);
         // The door saw neither this rotation nor, for a band with an edge of zero, this normal.
         self.check_width(width)?;
         let traction = self.decohesion.onset_traction(stress, &normal);
@@ -217,12 +221,14 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         let mut stored = 0.5 * step.biot_stress.dot(&elastic_strain);
         let mut dissipated = 0.0;
         for (index, plane) in planes.iter().enumerate() {
+            // A plane of before as it was, turned or not; one that started as it started.
             let before = match old.planes().get(index) {
                 Some(before) => *before,
-                None => Plane::new(&plane.normal(), plane.width, Vector3::zeros()),
+                None => step.start.planes()[index],
             };
             stored += self.decohesion.stored(&self.elastic, plane) / plane.width;
-            let lost = self.decohesion.dissipated(&self.elastic, &before, plane);
+            let trial = self.trial(&step.biot_stress, plane);
+            let lost = self.decohesion.dissipated(&before, plane, &trial);
             dissipated += lost / plane.width;
         }
         let stress = step.kinematics.cauchy(&step.biot_stress);
@@ -239,6 +245,15 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
 }
 
 impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
+    /// What a plane sees at the end of a step.
+    fn trial(&self, stress: &Sym, plane: &Plane) -> Trial {
+        Trial {
+            elastic: self.elastic,
+            stress: *stress + self.elastic.stress(&plane.strain()),
+            slack: 0.0,
+        }
+    }
+
     /// `∂T/∂E`, if it is at hand.
     fn modulus(&self, step: &Step<N>, old: &MultiCrackState<N>) -> Option<Tangent> {
         let planes = step.state.planes();
@@ -247,11 +262,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         }
         let mut rates = [[Sym::ZERO; 3]; N];
         for ((rate, start), plane) in rates.iter_mut().zip(step.start.planes()).zip(planes) {
-            let trial = Trial {
-                elastic: self.elastic,
-                stress: step.biot_stress + self.elastic.stress(&plane.strain()),
-                slack: 0.0,
-            };
+            let trial = self.trial(&step.biot_stress, plane);
             *rate = self.decohesion.release_rate(start, plane, &trial)?;
         }
         coupled(&self.elastic, planes, &rates)
@@ -262,6 +273,9 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
 fn turn(planes: &mut [Plane], strain: &Sym) {
     for plane in planes {
         let normal = strain.spectrum().vectors[0];
+        if plane.normal() == normal {
+            continue; // a zero increment moves no bit
+        }
         let traction = plane.normal().dot(&Vector3::from(plane.traction));
         plane.normal = normal.into();
         plane.traction = (normal * traction).into();
@@ -299,6 +313,10 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
             }
         }
         Ok(())
+    }
+
+    fn isotropic(&self) -> bool {
+        self.decohesion.isotropic()
     }
 
     fn density(&self) -> f64 {

@@ -14,7 +14,7 @@ use fissure_tensor::{Matrix3, Sym, Vector3};
 
 use super::{
     Decohesion, Plane, Trial,
-    decohesion::{contact, slide, slide_rate},
+    decohesion::{contact, pressure, slide, slide_rate},
 };
 use crate::{
     Initiation, Isotropic, MaterialError, Scale, Softening, check_parameter,
@@ -220,8 +220,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         Rankine { strength }.initiation(stress)
     }
 
-    fn onset_traction(&self, _stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        normal * self.strength
+    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        // All of it shrunk to the surface: as on a proportional path.
+        let traction = stress.traction(normal);
+        traction * (self.strength / normal.dot(&traction))
     }
 
     fn release(&self, old: &Plane, trial: &Trial) -> Plane {
@@ -236,7 +238,7 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         let mut plane = *old;
         let traction = trial.normal_traction(old);
         plane.opening = self.open(&mut plane, traction, trial);
-        let pressure = (trial.normal_stiffness(old) * plane.opening - traction).max(0.0);
+        let pressure = pressure(&plane, trial);
         let slip = match self.shear {
             Shear::Elastic => Vector3::zeros(),
             Shear::Damaged(_) if !plane.failed => {
@@ -266,8 +268,8 @@ impl<S: Softening> Decohesion for ModeOne<S> {
                 rate += turned * normal.transpose() * growth;
             }
         } else if self.shear != Shear::Elastic {
-            let pressure = stiffness * new.opening - trial.normal_traction(new);
-            let limit = self.friction() * pressure.max(0.0);
+            let pressure = pressure(new, trial);
+            let limit = self.friction() * pressure;
             if let Some((with_traction, with_limit)) = slide_rate(old, trial, limit) {
                 rate += with_traction;
                 if pressure > 0.0 {
@@ -301,10 +303,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
 
     /// Exact for the opening. Friction: mean limit times slip. Damaged shear: the uncracked
     /// shear traction `t₀` taken linear in `ω`, `½ ∫ t₀²/(μ/L) dω`.
-    fn dissipated(&self, elastic: &Isotropic, old: &Plane, new: &Plane) -> f64 {
+    fn dissipated(&self, old: &Plane, new: &Plane, trial: &Trial) -> f64 {
         let [before, after] = [old, new].map(|plane| self.dissipated_fraction(plane.softened));
         let opening = self.toughness * (after - before).max(0.0);
-        opening + self.dissipated_in_shear(elastic, old, new)
+        opening + self.dissipated_in_shear(&trial.elastic, old, new)
     }
 }
 
@@ -329,7 +331,15 @@ impl<S: Softening> ModeOne<S> {
                         Vector3::zeros()
                     }
                 };
-                let (a, b) = (uncracked(old, before), uncracked(new, after));
+                let after_shear = uncracked(new, after);
+                let before_shear = if old.softened > 0.0 {
+                    uncracked(old, before)
+                } else {
+                    // The plane starts: its traction is that at onset.
+                    let (normal, traction) = (old.normal(), Vector3::from(old.traction));
+                    traction - normal * normal.dot(&traction)
+                };
+                let (a, b) = (before_shear, after_shear);
                 let square = (a.norm_squared() + a.dot(&b) + b.norm_squared()) / 3.0;
                 0.5 * square / stiffness * (after - before).max(0.0)
             }

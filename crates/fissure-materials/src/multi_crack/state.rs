@@ -29,6 +29,8 @@ pub struct Plane {
     pub seat: f64,
     /// Whether it carries no more tension.
     pub failed: bool,
+    /// Whether its jump changed when last its traction did.
+    pub moving: bool,
 }
 
 impl Plane {
