@@ -53,6 +53,11 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
+    /// Whether planes of this kind can be returned together with others.
+    fn several(&self) -> bool {
+        true
+    }
+
     /// Refuses parameters outside their range.
     ///
     /// # Errors

@@ -77,7 +77,7 @@ impl<S: Softening> Opening<'_, S> {
         let law = self.law;
         let partials = law
             .surface
-            .partials(&self.on_plane(opening), law.left(opening));
+            .flow_partials(&self.on_plane(opening), law.left(opening));
         let capacity = -partials.value;
         if capacity < 0.0 {
             return (capacity, 0.0);
@@ -172,6 +172,12 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         false
     }
 
+    /// The flow does not follow from a potential, and returning one plane after the other runs in
+    /// circles in one large step out of some ten.
+    fn several(&self) -> bool {
+        false
+    }
+
     fn check(&self) -> Result<(), MaterialError> {
         self.surface.check()?;
         let toughness = self.toughness;
@@ -227,8 +233,31 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         self.surface.upper_bound(stress)
     }
 
+    /// The value is that of the stress, the normal that of the stress shrunk to the surface: in one
+    /// large step the shear term, a square, would else outgrow the others and turn the plane.
     fn initiation(&self, stress: &Sym) -> Initiation {
-        self.surface.initiation(stress)
+        let reached = self.surface.initiation(stress);
+        if !(reached.value > 0.0) {
+            return reached;
+        }
+        let (mut low, mut high, mut normal) = (0.0, 1.0, reached.normal);
+        let mut share = 0.5;
+        for _ in 0..60 {
+            let here = self.surface.initiation(&(*stress * share));
+            if here.value > 0.0 {
+                (high, normal) = (share, here.normal);
+            } else {
+                low = share;
+            }
+            if high - low < 1e-9 * high {
+                break;
+            }
+            share = 0.5 * (low + high);
+        }
+        Initiation {
+            value: reached.value,
+            normal,
+        }
     }
 
     fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {

@@ -2,7 +2,7 @@
 //!
 //! `ε = εᵉ + Σ_j sym(u_j ⊗ n_j)/L_j` (4.5.15), `T = C:εᵉ`, with the Biot strain, so that the law is
 //! objective. What starts, opens and closes a plane is its [`Decohesion`]: [`ModeOne`] or
-//! [`GeologicalFlow`]. All planes are returned together, until every `F_j` is within round-off of
+//! [`GeologicalFlow`] (one plane only). All planes are returned together, until every `F_j` is within round-off of
 //! zero or below; the document's single pass over the planes leaves earlier ones violated by later.
 //!
 //! # When the coupled return is unique, and the threshold angle
@@ -289,6 +289,11 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
         self.decohesion.check()?;
+        if matches!(self.planes, Planes::Multiple(_)) {
+            let valid = N < 2 || self.decohesion.several();
+            let rule = "1 for this decohesion";
+            check_parameter(NAME, "number of planes", N as f64, valid, rule)?;
+        }
         if let Planes::Multiple(Some(angle)) = self.planes {
             let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
             check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;

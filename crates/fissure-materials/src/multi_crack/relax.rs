@@ -15,7 +15,7 @@ use super::{Decohesion, NAME, Plane, Trial, dense::Dense};
 use crate::{Isotropic, MaterialError};
 
 /// Returns of single planes allowed in a step.
-const MAXIMAL_RETURNS: usize = 5000;
+const MAXIMAL_RETURNS: usize = 2000;
 
 /// Returns of single planes between two of all at once.
 const RETURNS_BETWEEN_JUMPS: usize = 40;

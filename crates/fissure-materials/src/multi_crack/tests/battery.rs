@@ -19,7 +19,7 @@ fn message(outcome: Result<crate::contract::Summary, Violation>) -> String {
 fn one_fixed_plane_passes_for_every_unloading_and_shear() {
     for (unloading, shear) in CHOICES {
         let law = law::<1>(unloading, shear, Planes::Fixed);
-        assert_eq!(message(contract(64).check_cracking(&law)), "", "{shear:?}");
+        assert_eq!(message(contract(40).check_cracking(&law)), "", "{shear:?}");
     }
 }
 
@@ -32,7 +32,7 @@ fn friction_passes_as_any_law() {
         (Unloading::Secant, Shear::Damaged(0.5)),
     ] {
         let law = law::<1>(unloading, shear, Planes::Fixed);
-        assert_eq!(message(contract(64).check(&law)), "");
+        assert_eq!(message(contract(40).check(&law)), "");
     }
 }
 
@@ -40,14 +40,14 @@ fn friction_passes_as_any_law() {
 fn several_planes_without_shear_pass() {
     for unloading in [Unloading::Permanent, Unloading::Secant] {
         let law = law::<6>(unloading, Shear::Coulomb(0.0), Planes::Multiple(None));
-        assert_eq!(message(contract(48).check_cracking(&law)), "");
+        assert_eq!(message(contract(32).check_cracking(&law)), "");
     }
 }
 
 /// P1, P3, P6, P9, P10, P22 and P24 hold. P11 does not where, within one step, two directions ask
 /// for the next plane equally: which one starts is a change of mode, and the stress jumps.
 fn passes_up_to_continuity<M: Material>(law: &M) {
-    if let Err(violation) = contract(64).check(law) {
+    if let Err(violation) = contract(40).check(law) {
         assert_eq!(violation.property, "P11 continuity", "{violation}");
     }
 }

@@ -13,7 +13,8 @@ fn moving_planes_are_on_the_surface_and_follow_the_flow() -> Result<(), Material
     let mut random = Random::new(64);
     let mut sliding = 0;
     for _ in 0..400 {
-        let to = random.strain_direction(false) * random.log_uniform(1e-4, 1.5e-3);
+        let pressed = Sym::IDENTITY * random.uniform(0.0, 2e-3);
+        let to = random.strain_direction(false) * random.log_uniform(1e-4, 4e-3) - pressed;
         let Ok(response) = law.update(&step_to(&Sym::ZERO, &to, BAND), &law.initial()) else {
             panic!("no answer to {to:?}");
         };
@@ -40,7 +41,7 @@ fn moving_planes_are_on_the_surface_and_follow_the_flow() -> Result<(), Material
             assert!(cross.abs() < 1e-6 * size, "{:e}", cross / size);
         }
     }
-    assert!(sliding > 30, "{sliding}");
+    assert!(sliding > 10, "{sliding}");
     Ok(())
 }
 

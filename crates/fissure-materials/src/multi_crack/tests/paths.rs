@@ -201,7 +201,7 @@ fn fuzz<M: Cracking>(law: &M, updates: u32, seed: u64) -> Counts {
 
 #[test]
 fn any_step_ends() {
-    const UPDATES: u32 = 4000;
+    const UPDATES: u32 = 2000;
     for (unloading, shear) in CHOICES {
         let one = fuzz(&law::<1>(unloading, shear, Planes::Fixed), UPDATES, 1);
         let more = fuzz(
@@ -223,14 +223,11 @@ fn any_step_ends() {
 
 #[test]
 fn any_step_of_geological_flow_ends() {
-    const UPDATES: u32 = 2000;
+    const UPDATES: u32 = 1000;
     for friction in [None, Some(0.6)] {
         let one = fuzz(&geological::<1>(friction, Planes::Fixed), UPDATES, 5);
-        let more = fuzz(
-            &geological::<6>(friction, Planes::Multiple(None)),
-            UPDATES,
-            6,
-        );
-        println!("geological {friction:?}: one {one:?}, several {more:?}");
+        println!("geological {friction:?}: {one:?}");
+        let several = geological::<6>(friction, Planes::Multiple(None));
+        assert!(several.check().is_err());
     }
 }
