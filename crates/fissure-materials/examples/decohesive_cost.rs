@@ -7,6 +7,8 @@
 //! principal stresses below 0.7 of the strength; "near the surface": between 0.9 and 1 of it;
 //! "cracking": all between 2 and 20 strengths.
 
+#![allow(clippy::print_stdout)] // the point of it
+
 use std::{hint::black_box, time::Instant};
 
 use fissure_materials::{

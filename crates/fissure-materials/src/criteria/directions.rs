@@ -83,14 +83,14 @@ fn keep(kept: &mut [(f64, Vector3<f64>); KEPT], value: f64, direction: Vector3<f
         return;
     }
     let mut entry = (value, direction);
-    for index in 0..KEPT {
-        let old = kept[index];
+    for slot in kept.iter_mut() {
+        let old = *slot;
         if old.0 == f64::NEG_INFINITY {
-            kept[index] = entry;
+            *slot = entry;
             return;
         }
         if entry.0 > old.0 {
-            kept[index] = entry;
+            *slot = entry;
             if near(&old.1) {
                 return; // the new one takes the place of a lesser neighbour
             }

@@ -35,9 +35,9 @@ impl Dense {
 
     /// Gauss-Jordan elimination with row pivoting; an unknown without a pivot stays zero.
     pub fn solve(&mut self) {
-        let mut place = [None; MOST];
+        let mut place: [Option<usize>; MOST] = [None; MOST];
         let mut used = 0;
-        for column in 0..self.size {
+        for (column, spot) in place.iter_mut().enumerate().take(self.size) {
             let best = (used..self.size).max_by(|a, b| {
                 self.rows[*a][column]
                     .abs()
@@ -60,13 +60,13 @@ impl Dense {
                     self.right[row] -= factor * right;
                 }
             }
-            place[column] = Some(used);
+            *spot = Some(used);
             used += 1;
         }
         let mut solution = [0.0; MOST];
-        for column in 0..self.size {
+        for (column, value) in solution.iter_mut().enumerate().take(self.size) {
             if let Some(row) = place[column] {
-                solution[column] = self.right[row] / self.rows[row][column];
+                *value = self.right[row] / self.rows[row][column];
             }
         }
         self.right = solution;

@@ -173,7 +173,7 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
     }
 
     /// The flow does not follow from a potential, and returning one plane after the other runs in
-    /// circles in one large step out of some ten.
+    /// circles in about one large step of twenty.
     fn several(&self) -> bool {
         false
     }

@@ -13,8 +13,8 @@ fn moving_planes_are_on_the_surface_and_follow_the_flow() -> Result<(), Material
     let mut random = Random::new(64);
     let mut sliding = 0;
     for _ in 0..400 {
-        let pressed = Sym::IDENTITY * random.uniform(0.0, 2e-3);
-        let to = random.strain_direction(false) * random.log_uniform(1e-4, 4e-3) - pressed;
+        let pressed = Sym::IDENTITY * random.uniform(1e-3, 6e-3);
+        let to = random.strain_direction(false) * random.log_uniform(1e-3, 1.5e-2) - pressed;
         let Ok(response) = law.update(&step_to(&Sym::ZERO, &to, BAND), &law.initial()) else {
             panic!("no answer to {to:?}");
         };
