@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use fissure_materials::{Sym, criteria::{FailureCriterion, MohrCoulomb}};
-//! let sandstone = MohrCoulomb { strength: 2e6, shear_strength: 6e6 };
+//! let sandstone = MohrCoulomb { strength: 2e6, shear_strength: 3e6 };
 //! let pressed = Sym::diagonal(-1e6, -2e6, -50e6);
 //! let onset = sandstone.onset(&pressed).ok_or("below the surface")?;
 //! assert!(onset.normal.y.abs() < 1e-12);
