@@ -21,6 +21,7 @@ use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
     softening::{Linear, opening},
+    sound::{below, sound},
     turning::Turning,
 };
 
@@ -258,6 +259,9 @@ impl<S: Softening> Material for Decohesive<S> {
         old: &DecohesiveState,
     ) -> Result<Response<DecohesiveState>, MaterialError> {
         let point = self.point(&increment.external.scale);
+        if let Some(response) = point.sound(increment, old)? {
+            return Ok(response);
+        }
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
@@ -300,7 +304,11 @@ impl<S: Softening> Material for Decohesive<S> {
             }
         }
         let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus) + widening;
-        Ok((point.response(&kinematics, &step, old), tangent))
+        let response = match point.sound(increment, old)? {
+            Some(response) => response,
+            None => point.response(&kinematics, &step, old),
+        };
+        Ok((response, tangent))
     }
 
     fn values(&self, state: &DecohesiveState, out: &mut [f64]) {
@@ -311,6 +319,21 @@ impl<S: Softening> Material for Decohesive<S> {
 }
 
 impl<S: Softening> Point<'_, S> {
+    /// The response without a crack where there is none and a bound rules one out.
+    #[inline]
+    fn sound(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+    ) -> Result<Option<Response<DecohesiveState>>, MaterialError> {
+        if old.width != 0.0 {
+            return Ok(None);
+        }
+        sound(&self.elastic, &increment.f_new, |stress| {
+            below(self.strength, stress)
+        })
+    }
+
     fn response(
         &self,
         kinematics: &Biot,
