@@ -188,7 +188,7 @@ impl<const D: usize> Scene<D> {
     /// Gives every particle of a body a velocity, m/s, by its place.
     ///
     /// # Errors
-    /// An unknown body, or a velocity that is not finite.
+    /// An unknown body, or a velocity that is not finite; nothing is changed then.
     pub fn set_velocity(
         &mut self,
         body: &str,
@@ -196,16 +196,16 @@ impl<const D: usize> Scene<D> {
     ) -> Result<&mut Self, SceneError> {
         let index = self.body_index(body)?;
         let motion = &mut self.bodies[index].particles.motion;
-        for (x, v) in motion.position.iter().zip(&mut motion.velocity) {
-            *v = velocity(x);
-            if let Some(&value) = v.iter().find(|c| !c.is_finite()) {
-                return Err(SceneError::Parameter {
-                    parameter: "velocity",
-                    value,
-                    permitted: "finite",
-                });
-            }
+        let velocities: Vec<SVector<f64, D>> = motion.position.iter().map(velocity).collect();
+        let mut components = velocities.iter().flat_map(|v| v.iter());
+        if let Some(&value) = components.find(|c| !c.is_finite()) {
+            return Err(SceneError::Parameter {
+                parameter: "velocity",
+                value,
+                permitted: "finite",
+            });
         }
+        motion.velocity = velocities;
         self.energy.kinetic = self.bodies.iter().map(Body::kinetic_energy).sum();
         self.edits += 1;
         Ok(self)
