@@ -37,6 +37,36 @@ pub struct KernelFailure {
     pub row: usize,
 }
 
+impl KernelFailure {
+    /// Of the particles of a run that a kernel cannot move the one with the lowest id, whatever
+    /// their order: the kernel, which stopped at the first, is asked for each one by itself.
+    pub fn lowest<const D: usize>(
+        self,
+        kernel: &dyn RunKernel<D>,
+        run: &Run,
+        ids: &[ParticleId],
+        old: &MotionSlices<'_, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) -> Self {
+        let mut lowest = self.row;
+        for row in self.row + 1..old.len() {
+            let start = run.start + row as u32;
+            let alone = Run {
+                start,
+                end: start + 1,
+                tile: run.tile,
+            };
+            let (old, _) = old.split_at(row).1.split_at(1);
+            let (mut new, _) = new.reborrow().split_at(row).1.split_at(1);
+            let failed = kernel.gather(&alone, &old, &mut new).is_err();
+            if failed && ids[start as usize] < ids[run.start as usize + lowest] {
+                lowest = row;
+            }
+        }
+        Self { row: lowest }
+    }
+}
+
 /// What a solver does to a run before the law sees it: fills the trial motion (at least the
 /// deformation gradient) from the present one.
 pub trait RunKernel<const D: usize>: Sync {
@@ -60,7 +90,8 @@ pub trait RunKernel<const D: usize>: Sync {
 }
 
 /// Artificial bulk viscosity of von Neumann and Richtmyer: in compression at the rate `−D` the
-/// pressure `ρ ℓ D (linear·c + quadratic·ℓ D)` is added to the stress.
+/// pressure `ρ ℓ D (linear·c + quadratic·ℓ D)` is added to the stress. `−D` is the rate of the
+/// volume; in plane stress that of the area, in the plane of which alone the pressure acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscosity {
     /// Coefficient of the linear term; usually 0.06 to 0.5.

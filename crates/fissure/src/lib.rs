@@ -88,6 +88,8 @@ mod pages {
     mod concepts {}
     #[doc = include_str!("../../../docs/own-law.md")]
     mod own_law {}
+    #[doc = include_str!("../../../docs/strength-fields.md")]
+    mod strength_fields {}
     #[doc = include_str!("../../../docs/choose-a-solver.md")]
     mod choose_a_solver {}
 }

@@ -12,7 +12,18 @@ use super::grid_update::{NodeMotion, velocity};
 use crate::constraints::Constraints;
 use crate::to_grid::{Gift, Sums, Transfers};
 
+/// What holds the terms of the filter, and where the impulses go that this takes.
+pub(crate) struct Held<'a, const D: usize> {
+    pub constraints: &'a Constraints<D>,
+    /// By condition, kg·m/s.
+    pub impulses: &'a mut [SVector<f64, D>],
+}
+
 /// Fills `filtered` of every node from the velocity that `source` picks, which satisfies `held`.
+///
+/// Holding the term `r` changes it by `δ_r`; that is in all later terms too, since `S⁺S` keeps the
+/// momentum, so the particles receive `m_i δ_r` as often as the coefficients from `r` on sum to:
+/// `Σ_{s=r}^m (−1)^{s+1} (m over s) = (−1)^{r+1} (m−1 over r−1)`.
 pub(crate) fn filter<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
@@ -20,9 +31,10 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
     nodes: &mut [NodeMotion<D>],
     order: usize,
     source: impl Fn(&NodeMotion<D>) -> SVector<f64, D>,
-    held: Option<&Constraints<D>>,
+    mut held: Option<Held<'_, D>>,
 ) -> Result<(), (usize, usize)> {
     let mut coefficient = order as f64;
+    let mut from_here_on = 1.0;
     let mut term: Vec<SVector<f64, D>> = nodes.iter().map(source).collect();
     for (node, v) in nodes.iter_mut().zip(&term) {
         node.filtered = v * coefficient;
@@ -40,13 +52,26 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
             }
         })?;
         coefficient *= -((order + 1 - r) as f64) / r as f64;
+        from_here_on *= -((order + 1 - r) as f64) / (r - 1) as f64;
         for (v, sum) in term.iter_mut().zip(&scratch.nodes) {
             *v = velocity(sum);
         }
         // Every term is held, so that the expansion inverts the mass matrix of the free nodes.
         // Holding the sum alone feeds energy in at a wall.
-        for held in held.into_iter().flat_map(|constraints| &constraints.held) {
-            term[held.node] = held.apply(&term[held.node]);
+        if let Some(Held {
+            constraints,
+            impulses,
+        }) = &mut held
+        {
+            for held in &constraints.held {
+                let free = term[held.node];
+                term[held.node] = held.apply(&free);
+                let share = scratch.nodes[held.node].mass * from_here_on;
+                let impulse = (term[held.node] - free) * share;
+                for (condition, impulse) in held.reactions(&impulse) {
+                    impulses[condition] += impulse;
+                }
+            }
         }
         for (node, v) in nodes.iter_mut().zip(&term) {
             node.filtered += v * coefficient;

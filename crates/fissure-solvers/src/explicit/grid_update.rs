@@ -74,11 +74,10 @@ pub(crate) fn update<const D: usize>(
         let free = node.end;
         node.end = held.apply(&free);
         let mean = (node.start + node.end) * 0.5;
-        for k in 0..held.count {
-            let direction = held.directions[k];
-            let force = sum.mass * direction.dot(&(node.end - free)) / dt;
-            reactions[held.conditions[k]] += direction * force;
-            energy.external += force * direction.dot(&mean) * dt;
+        let force = (node.end - free) * (sum.mass / dt);
+        energy.external += force.dot(&mean) * dt;
+        for (condition, reaction) in held.reactions(&force) {
+            reactions[condition] += reaction;
         }
     }
     let partial: Vec<StepEnergy> = motion

@@ -7,7 +7,7 @@ use fissure_scene::{
 };
 use nalgebra::SVector;
 
-use super::filter::filter;
+use super::filter::{Held, filter};
 use super::grid_update::{NodeMotion, velocity};
 use super::kernels::StepKernel;
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
@@ -86,12 +86,14 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         Ok(())
     }
 
-    /// Filtered nodal velocities, if the transfer wants them.
+    /// Filtered nodal velocities, if the transfer wants them; what holding them takes is added to
+    /// the `reactions` of the conditions, N.
     pub(crate) fn filter(
         &self,
         scene: &Scene<D>,
         scratch: &mut Sums<D>,
         nodes: &mut [NodeMotion<D>],
+        reactions: &mut [SVector<f64, D>],
     ) -> Result<(), SolveError> {
         let transfers = &self.transfers;
         let start = |node: &NodeMotion<D>| node.start;
@@ -101,8 +103,16 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 filter(transfers, scene, scratch, nodes, order, start, None)
             }
             Transfer::Fmpm { order } => {
-                let held = Some(self.constraints);
-                filter(transfers, scene, scratch, nodes, order, end, held)
+                let mut impulses = vec![SVector::zeros(); reactions.len()];
+                let held = Held {
+                    constraints: self.constraints,
+                    impulses: &mut impulses,
+                };
+                let done = filter(transfers, scene, scratch, nodes, order, end, Some(held));
+                for (reaction, impulse) in reactions.iter_mut().zip(&impulses) {
+                    *reaction += impulse / self.dt;
+                }
+                done
             }
             _ => Ok(()),
         }
@@ -210,7 +220,8 @@ fn move_runs<const D: usize>(
         [] => Ok(()),
         [run] => kernel
             .gather(run, &old, &mut new)
-            .map_err(|KernelFailure { row }| {
+            .map_err(|failure: KernelFailure| {
+                let KernelFailure { row } = failure.lowest(kernel, run, ids, &old, &mut new);
                 let index = run.start as usize + row;
                 (ids[index], index)
             }),

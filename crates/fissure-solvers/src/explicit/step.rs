@@ -161,7 +161,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
             dt,
         );
-        phases.filter(scene, scratch, nodes)?;
+        phases.filter(scene, scratch, nodes, &mut report.reactions)?;
         match settings.stress_update {
             StressUpdate::First => phases.move_particles(scene, nodes)?,
             StressUpdate::Last => {

@@ -66,22 +66,36 @@ pub(super) fn external_forces<S: Shape<D>, const D: usize>(
     add_loads(transfers, scene, sums, time)
 }
 
-/// Internal forces of the trial stresses on the nodes, with gradients at the end of the step.
+/// When internal forces are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// Before the step: of the present stresses.
+    Start,
+    /// After it: of the trial stresses, with gradients at the end of the step.
+    End,
+}
+
+/// Internal forces of the stresses on the nodes.
 pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
     sums: &mut Sums<D>,
+    at: At,
 ) -> Result<(), (usize, usize)> {
     transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
         let particles = body.particles();
-        let f_new = &particles.trial.deformation_gradient[i];
+        let motion = match at {
+            At::Start => &particles.motion,
+            At::End => &particles.trial,
+        };
+        let f_new = &motion.deformation_gradient[i];
         let f_old = &particles.motion.deformation_gradient[i];
         let volume = particles.volume[i] * f_new.determinant();
         let mut stress = StressForce::new(
             transfers.kinematics,
-            &particles.trial.stress[i],
+            &motion.stress[i],
             volume,
-            &particles.trial.position[i],
+            &motion.position[i],
         );
         stress.on_gradient *= relative::<D>(f_new, f_old);
         Gift {
@@ -131,23 +145,22 @@ pub(super) fn reactions<const D: usize>(
     for held in &constraints.held {
         let unbalanced =
             internal.nodes[held.node].internal_force + external.nodes[held.node].external_force;
-        for k in 0..held.count {
-            let direction = held.directions[k];
-            reactions[held.conditions[k]] -= direction * direction.dot(&unbalanced);
+        for (condition, reaction) in held.reactions(&-unbalanced) {
+            reactions[condition] += reaction;
         }
     }
     reactions
 }
 
-/// Work of loads and body forces over the step, J: mean of start and end, times the way.
-pub(super) fn load_work<const D: usize>(
+/// Work of nodal forces over the step, J: mean of start and end, times the way.
+pub(super) fn work<const D: usize>(
     before: &[SVector<f64, D>],
-    external: &Sums<D>,
+    now: impl Iterator<Item = SVector<f64, D>>,
     displacement: &[SVector<f64, D>],
 ) -> f64 {
-    let loads = before.iter().zip(&external.nodes);
-    let pairs = loads.zip(displacement);
+    let forces = before.iter().zip(now);
+    let pairs = forces.zip(displacement);
     pairs
-        .map(|((before, now), u)| 0.5 * (before + now.external_force).dot(u))
+        .map(|((before, now), u)| 0.5 * (before + now).dot(u))
         .sum()
 }

@@ -6,7 +6,7 @@ use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy
 use nalgebra::SVector;
 
 use super::assembly::Assembly;
-use super::balance::{external_forces, internal_forces, load_work, reactions, residual, strain};
+use super::balance::{At, external_forces, internal_forces, reactions, residual, strain, work};
 use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
@@ -59,6 +59,7 @@ struct Equilibrium<const D: usize> {
     reactions: Vec<SVector<f64, D>>,
     iterations: usize,
     load_work: f64,
+    internal_work: f64,
     force_scale: f64,
 }
 
@@ -152,6 +153,13 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .collect();
         external_forces(&transfers, scene, external, end)
             .map_err(|failed| off_grid(scene, failed))?;
+        internal_forces(&transfers, scene, internal, At::Start)
+            .map_err(|failed| off_grid(scene, failed))?;
+        let before_stresses: Vec<SVector<f64, D>> = internal
+            .nodes
+            .iter()
+            .map(|sum| sum.internal_force)
+            .collect();
 
         displacement.clear();
         displacement.extend(external.nodes.iter().map(|sum| {
@@ -174,7 +182,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         for iteration in 0..=settings.max_iterations {
             let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
                 .map_err(Failed::Refused)?;
-            internal_forces(&transfers, scene, internal)
+            internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
             let (mut right, residual, reaction) = residual(freedoms, internal, external);
             // Of this state and of the steps accepted before, not of iterates that were left.
@@ -185,11 +193,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
             if placed && error <= settings.tolerance {
+                let loads = external.nodes.iter().map(|sum| sum.external_force);
+                let stresses = internal.nodes.iter().map(|sum| sum.internal_force);
                 return Ok(Equilibrium {
                     totals,
                     reactions: reactions(scene, constraints, internal, external),
                     iterations: iteration,
-                    load_work: load_work(&before_loads, external, displacement),
+                    load_work: work(&before_loads, loads, displacement),
+                    internal_work: -work(&before_stresses, stresses, displacement),
                     force_scale: scale,
                 });
             }
@@ -242,14 +253,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.has_stepped = true;
         self.force_scale = equilibrium.force_scale;
         let end = scene.time() + dt;
-        let mut work = equilibrium.load_work;
+        let mut external = equilibrium.load_work;
         for (condition, now) in scene.conditions().iter().zip(&equilibrium.reactions) {
             if let ConditionKind::Velocity { hold, speed } = condition.kind() {
                 let before = scene
                     .reaction(condition.name())
                     .unwrap_or_else(SVector::zeros);
                 let way = hold.direction() * (speed.at(end) * dt);
-                work += (before + now).dot(&way) * 0.5;
+                external += (before + now).dot(&way) * 0.5;
             }
         }
         let report = Report {
@@ -257,9 +268,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             time: end,
             dt,
             energy: StepEnergy {
-                external: work,
-                // In equilibrium the internal forces take what the external ones give.
-                internal: work,
+                external,
+                internal: equilibrium.internal_work,
                 stored: equilibrium.totals.stored,
                 dissipated: equilibrium.totals.dissipated,
                 ..StepEnergy::default()
