@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicU64;
 
 use fissure_materials::{
     Band, Cracking, Decohesive, Hencky, Increment, Isotropic, Material, MaterialError, Matrix3,
-    NeoHookean, Normal, Vector3,
+    NeoHookean, Normal, PlaneStress, Vector3,
     contract::{self, Contract, Summary, Violation},
     softening::Linear,
 };
@@ -72,6 +72,24 @@ fn finite_elasticity_passes() {
 }
 
 #[test]
+fn elasticity_in_plane_stress_passes() {
+    passes(&PlaneStress(CONCRETE));
+    passes(&PlaneStress(Hencky { elastic: CONCRETE }));
+    passes(&PlaneStress(NeoHookean {
+        density: 1000.0,
+        young: 1e6,
+        poisson: 0.3,
+    }));
+}
+
+#[test]
+fn decohesive_in_plane_stress_passes() {
+    passes_cracking(&PlaneStress(decohesive(Normal::Rankine)));
+    let normal = Vector3::new(1.0, 2.0, 0.0);
+    passes_cracking(&PlaneStress(decohesive(Normal::Prescribed(normal))));
+}
+
+#[test]
 fn decohesive_passes_as_any_law() {
     passes(&decohesive(Normal::Rankine));
 }
@@ -129,8 +147,12 @@ fn any_seed_passes() {
 
 #[test]
 fn cracking_is_exercised() {
-    let summary = contract::check_cracking(&decohesive(Normal::Rankine));
-    let summary = summary.expect("the law passes");
+    exercised(&decohesive(Normal::Rankine));
+    exercised(&PlaneStress(decohesive(Normal::Rankine)));
+}
+
+fn exercised(law: &impl Cracking) {
+    let summary = contract::check_cracking(law).expect("the law passes");
     assert!(
         summary.softened > 50 && summary.failed > 20,
         "{} softened, {} failed",
@@ -206,6 +228,37 @@ fn every_small_fault_is_found_by_its_property() {
         let name = contract.check_cracking(&law).map_err(|v| v.property);
         assert_eq!(name.err(), Some(property), "{fault:?}");
     }
+}
+
+#[test]
+fn a_crack_over_a_band_too_wide_for_plane_stress_is_refused() {
+    // Between the limit of plane stress and that of the law inside, seen only when it starts.
+    let law = PlaneStress(decohesive(Normal::Prescribed(Vector3::x())));
+    let limit = law.band_limit(&Default::default());
+    assert!(limit < 0.96 * law.0.band_limit(&Default::default()));
+    let edge = 0.72 * limit;
+    let band = Band::Projected([edge, edge, 0.0]);
+    assert_eq!(law.check_band(&band, &Default::default()), Ok(()));
+    let stretch = Matrix3::from_diagonal(&Vector3::new(1.001, 1.0, 1.0));
+    let turn = rotation(&Vector3::z(), std::f64::consts::FRAC_PI_4);
+    let along = Increment {
+        band,
+        ..Increment::to(stretch)
+    };
+    assert!(law.update(&along, &law.initial()).is_ok());
+    let refused = law.update(&along.with_end(turn * stretch), &law.initial());
+    let Err(MaterialError::Band {
+        width, limit: told, ..
+    }) = refused
+    else {
+        unreachable!("{refused:?}");
+    };
+    assert!((width / (edge * 2.0_f64.sqrt()) - 1.0).abs() < 1e-9);
+    assert!(
+        (told / limit - 1.0).abs() < 1e-9
+            && width > told
+            && width < law.0.band_limit(&Default::default())
+    );
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(super) fn run<M: Material>(
         note: None,
     };
     // A stream per property, so that adding one does not change the others' samples.
-    let mut random = Random::new(contract.seed ^ stream(property.name));
+    let mut random = Random::new(contract.seed ^ stream(property.name)).in_plane(M::PLANE);
     let samples = ((contract.samples as f64 * property.share).ceil() as usize).max(1);
     let mut last = Case::straight([], subject.rest().band);
     for sample in 0..samples {

@@ -3,7 +3,7 @@
 use fissure_tensor::{Matrix3, Sym};
 
 use super::{Case, gauge::Gauge, runner::Property, subject::Subject};
-use crate::{Material, MaterialError};
+use crate::{Material, MaterialError, material::columns};
 
 /// Difference steps tried, over the natural strain; a short one resolves sharp bends, a long one
 /// keeps round-off small.
@@ -44,18 +44,19 @@ fn judge<M: Material>(subject: &Subject<M>, case: &Case) -> Result<Gauge, Materi
     if subject.is_default_tangent(&increment, &old, &tangent) {
         return Ok(gauge);
     }
-    let jacobian = increment.jacobian();
+    let jacobian = |f: &Matrix3<f64>, state: &M::State| subject.whole(f, state).determinant();
     let kirchhoff = |d: &Sym, size: f64| -> Result<Sym, MaterialError> {
         let f = (Matrix3::identity() + d.to_matrix() * size) * increment.f_new;
         let response = subject.law.update(&increment.with_end(f), &old)?;
-        Ok(response.stress * f.determinant())
+        Ok(response.stress * jacobian(&f, &response.state))
     };
-    let here = alone.stress * jacobian;
-    for (column, what) in COLUMNS.into_iter().enumerate() {
+    let jacobian_here = jacobian(&increment.f_new, &alone.state);
+    let here = alone.stress * jacobian_here;
+    for &column in columns::<M>() {
         let mut d = Sym::ZERO;
         d.mandel[column] = 1.0;
         let convected = Sym::from_matrix(&(d.to_matrix() * alone.stress.to_matrix())) * 2.0;
-        let claimed = (tangent.apply(&d) + convected) * jacobian;
+        let claimed = (tangent.apply(&d) + convected) * jacobian_here;
         let scale = subject.stiffness.max(claimed.max_abs());
         let mut best = (f64::INFINITY, 0.0);
         for step in STEPS {
@@ -77,7 +78,7 @@ fn judge<M: Material>(subject: &Subject<M>, case: &Case) -> Result<Gauge, Materi
                 break;
             }
         }
-        gauge.check(best.0, best.1, what);
+        gauge.check(best.0, best.1, COLUMNS[column]);
     }
     Ok(gauge)
 }
