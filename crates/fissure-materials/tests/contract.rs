@@ -50,6 +50,7 @@ fn breaks(outcome: Result<Summary, Violation>, property: &str) {
         "smallest failing case",
         "seed",
         "step 1",
+        ".replay",
     ] {
         assert!(message.contains(part), "'{part}' is missing in: {message}");
     }
@@ -194,6 +195,40 @@ fn a_wrong_fracture_energy_is_found() {
 fn hidden_state_is_found() {
     let law = broken::HiddenState(decohesive(Normal::Rankine), AtomicU64::new(0));
     breaks(contract::check(&law), "P22 determinism");
+}
+
+#[test]
+fn a_violation_is_found_again_by_its_sample_and_by_its_case() {
+    let law = broken::WrongFractureEnergy(decohesive(Normal::Rankine));
+    let contract = Contract {
+        seed: 3,
+        ..Contract::default()
+    };
+    let found = contract
+        .check_cracking(&law)
+        .expect_err("a broken law passed");
+    let sample = found.replay.sample.expect("one case failed");
+    let again = found
+        .replay
+        .contract
+        .replay_cracking(&law, found.property, sample);
+    assert_eq!(again.as_ref(), Err(&found));
+    let call = format!(
+        "Contract {{ seed: 0x3, ..Contract::default() }}.replay_cracking(&law, \"P8 fracture energy\", {sample})"
+    );
+    assert!(found.to_string().contains(&call), "{found}");
+    // The small case alone, by the number of the property.
+    let alone = contract.judge_cracking(&law, "P8", &found.case);
+    assert_eq!(alone.map_err(|v| v.case), Err(found.case.clone()));
+    // A law that is right passes the same case, and it is one.
+    let right = contract
+        .judge_cracking(&law.0, "P8", &found.case)
+        .expect("passes");
+    assert_eq!((right.tallies.len(), right.tallies[0].exercised), (1, 1));
+    let unknown = contract
+        .replay(&law, "P99", 0)
+        .expect_err("there is no P99");
+    assert!(unknown.explanation.contains("P3 tangent"), "{unknown}");
 }
 
 #[test]

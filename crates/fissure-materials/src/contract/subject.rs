@@ -21,6 +21,8 @@ pub(super) struct Subject<'a, M> {
     pub opening: f64,
     /// Widest band to draw.
     pub width: f64,
+    /// Whether the scales are those that a law that cracks states.
+    pub cracking: bool,
     /// The band asked for, if one was.
     pub band: Option<Band>,
     /// Sub-steps of the isoerror property.
@@ -40,6 +42,7 @@ impl<'a, M: Material> Subject<'a, M> {
             reach,
             opening: 0.0,
             width: widest_band(law),
+            cracking: false,
             band: contract.band,
             isoerror_steps: contract.step_error_steps,
         };
@@ -256,6 +259,7 @@ impl<'a, M: Cracking> Subject<'a, M> {
     /// As [`new`](Self::new), with the scales that a law that cracks states itself.
     pub fn cracking(law: &'a M, contract: &Contract) -> Result<Self, MaterialError> {
         let mut subject = Self::new(law, contract)?;
+        subject.cracking = true;
         let scale = Scale::default();
         let strength = law.strength(&scale);
         if contract.strain_scale.is_none() {
