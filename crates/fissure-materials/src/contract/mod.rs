@@ -45,6 +45,7 @@ pub use case::{Case, Step};
 pub use generator::Random;
 pub use replay::Replay;
 pub use report::{Summary, Tally, Violation};
+pub use tangent::tangent_error;
 
 use crate::{Cracking, Material, MaterialError, Scale};
 use runner::{Property, run};
