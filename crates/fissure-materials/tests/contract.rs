@@ -43,6 +43,7 @@ fn breaks(outcome: Result<Summary, Violation>, property: &str) {
     let violation = outcome.expect_err("a broken law passed");
     assert_eq!(violation.property, property, "{violation}");
     let message = violation.to_string();
+    println!("{message}"); // For a look at it, with `--nocapture`.
     for part in [
         property,
         "measured",

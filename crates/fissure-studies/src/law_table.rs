@@ -60,13 +60,18 @@ impl Study for LawTable {
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
         for case in cases {
-            report.row(row(case)?)?;
+            let (row, first) = row(case)?;
+            report.row(row)?;
+            if let Some(first) = first {
+                report.progress(&first);
+            }
         }
         Ok(())
     }
 }
 
-fn row(case: &Parameters) -> Result<Row, StudyError> {
+/// The row of a law, and the first update that did what must not happen.
+fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
     let chosen = Chosen::of(case)?;
     let (updates, seed) = (case.count("updates")?, case.count("seed")?);
     let law = &chosen.law;
@@ -75,7 +80,7 @@ fn row(case: &Parameters) -> Result<Row, StudyError> {
     let start = Instant::now();
     let fuzzed = law.fuzz(updates, seed);
     let wall_s = start.elapsed().as_secs_f64();
-    Ok(Row::other("laws")
+    let row = Row::other("laws")
         .field("law", chosen.name())
         .field("updates", fuzzed.updates)
         .field("typed_errors", fuzzed.typed_errors)
@@ -102,5 +107,6 @@ fn row(case: &Parameters) -> Result<Row, StudyError> {
         .field("most_cracks", fuzzed.most_cracks)
         .field("tangents", fuzzed.tangents)
         .field("wall_s", wall_s)
-        .parameters(case))
+        .parameters(case);
+    Ok((row, fuzzed.first))
 }

@@ -1,5 +1,6 @@
 //! Millions of updates along random walks, and what must not happen in any of them.
 
+use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fissure::materials::contract::{Random, tangent_error};
@@ -9,7 +10,7 @@ use super::law::{State, Subject, stiffness};
 use super::walk::{Kind, Proposal, STEPS, Walk};
 
 /// Counts of a fuzz.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Fuzzed {
     /// Updates asked for.
     pub updates: u64,
@@ -37,6 +38,8 @@ pub struct Fuzzed {
     pub tangent_error: f64,
     /// Tangents compared.
     pub tangents: u64,
+    /// The first update that did what must not happen, in words.
+    pub first: Option<String>,
 }
 
 impl Default for Fuzzed {
@@ -55,7 +58,21 @@ impl Default for Fuzzed {
             most_cracks: 0,
             tangent_error: f64::NAN,
             tangents: 0,
+            first: None,
         }
+    }
+}
+
+impl Fuzzed {
+    /// Keeps the first offence.
+    fn tell<S: Debug>(&mut self, what: &str, walk: &Walk, increment: &Increment, old: &S) {
+        let number = self.updates;
+        self.first.get_or_insert_with(|| {
+            format!(
+                "update {number}, of a walk of the kind {:?}, {what}: {increment:?} from {old:?}",
+                walk.kind
+            )
+        });
     }
 }
 
@@ -87,15 +104,19 @@ pub(super) fn fuzz<S: Subject>(subject: &S, updates: u64, seed: u64) -> Fuzzed {
     let mut random = Random::new(seed).in_plane(S::M::PLANE);
     while counts.updates < updates {
         let mut walk = Walk::new(&mut random, subject.strain(), target.opening, widest, ways);
-        // A copy that a panic leaves as it is: its walk is counted, and the next one starts.
-        let before = counts;
+        let before = counts.updates;
         let outcome = catch_unwind(AssertUnwindSafe(|| {
             target.walk(&mut walk, &mut random, &mut counts, updates);
         }));
         if outcome.is_err() {
-            let made = counts.updates.max(before.updates + 1);
-            counts.updates = made;
+            // The walk ends with its panic, and the next one starts.
+            counts.updates = counts.updates.max(before + 1);
             counts.panics += 1;
+            let first = format!(
+                "update {} of the {:?} walk panicked",
+                counts.updates, walk.kind
+            );
+            counts.first.get_or_insert(first);
         }
     }
     counts
@@ -135,18 +156,27 @@ impl<S: Subject> Target<'_, S> {
                 && response.dissipated.is_finite()
                 && values.iter().all(|value| value.is_finite());
             counts.not_finite += u64::from(!finite);
+            if !finite {
+                counts.tell("gave numbers not finite", walk, &increment, &state);
+            }
             if !proposal.sound {
                 continue; // Judged, but not gone to: what follows would be of no use.
             }
             let strain = walk.accept(&proposal);
             let energy = response.stress.norm() * strain.norm() + response.stored.abs();
             let floor = -1e-12 * energy;
-            counts.negative_dissipation += u64::from(response.dissipated < floor);
+            if response.dissipated < floor {
+                counts.negative_dissipation += 1;
+                counts.tell("dissipated less than nothing", walk, &increment, &state);
+            }
             spare.clear();
             spare.extend(self.subject.irreversible(&response.state));
             let kept =
                 spare.len() >= listed.len() && spare.iter().zip(&listed).all(|(n, o)| n >= o);
-            counts.irreversibility_violations += u64::from(!kept);
+            if !kept {
+                counts.irreversibility_violations += 1;
+                counts.tell("let fall what only grows", walk, &increment, &state);
+            }
             std::mem::swap(&mut listed, &mut spare);
             self.look(&state, counts);
             if counts.updates % TANGENT_EVERY == 0 {
