@@ -187,19 +187,21 @@ impl Walk {
     }
 }
 
-/// Other units by a power of two: nothing but exponents changes until they leave the numbers.
+/// Other units by powers of two, up to 2^±900 in each factor: nothing but exponents may change until
+/// a product of them leaves the numbers, which is a typed error.
 fn units(random: &mut Random) -> Scale {
-    let factor = |random: &mut Random| 2.0_f64.powf((random.uniform(-900.0, 900.0)).round());
-    let stress = factor(random);
+    let power = |exponent: f64| 2.0_f64.powf(exponent.round());
+    let stress = random.uniform(-900.0, 900.0);
+    let room = 900.0 - stress.abs();
     let length = if random.chance(0.5) {
-        1.0
+        0.0
     } else {
-        factor(random)
+        random.uniform(-room, room)
     };
     Scale {
-        stiffness: stress,
-        strength: stress,
-        toughness: stress * length,
+        stiffness: power(stress),
+        strength: power(stress),
+        toughness: power(stress) * power(length),
     }
 }
 
