@@ -43,7 +43,6 @@ fn breaks(outcome: Result<Summary, Violation>, property: &str) {
     let violation = outcome.expect_err("a broken law passed");
     assert_eq!(violation.property, property, "{violation}");
     let message = violation.to_string();
-    println!("{message}"); // For a look at it, with `--nocapture`.
     for part in [
         property,
         "measured",
@@ -171,7 +170,12 @@ fn exercised(law: &impl Cracking) {
 #[test]
 fn a_wrong_tangent_is_found() {
     let law = broken::WrongTangent(decohesive(Normal::Rankine));
-    breaks(contract::check(&law), "P3 tangent");
+    let outcome = contract::check(&law);
+    // The message that docs/own-law.md shows.
+    let message = outcome.as_ref().map_err(|v| v.to_string()).err();
+    let call = ".replay(&law, \"P3 tangent\", 0)";
+    assert!(message.is_some_and(|message| message.contains(call)));
+    breaks(outcome, "P3 tangent");
 }
 
 #[test]

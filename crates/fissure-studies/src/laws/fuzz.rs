@@ -179,7 +179,7 @@ impl<S: Subject> Target<'_, S> {
             }
             std::mem::swap(&mut listed, &mut spare);
             self.look(&state, counts);
-            if counts.updates % TANGENT_EVERY == 0 {
+            if counts.updates.is_multiple_of(TANGENT_EVERY) {
                 self.tangent(walk, &proposal, &increment, &state, counts);
             }
             state = response.state;

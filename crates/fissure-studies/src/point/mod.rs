@@ -137,7 +137,7 @@ fn follow(case: &Parameters, picture: &str, report: &mut Report<'_>) -> Result<(
     let every = case.size("every")?;
     let last = followed.samples.len();
     for (index, reached) in followed.samples.iter().enumerate() {
-        if (index + 1) % every == 0 || index + 1 == last {
+        if (index + 1).is_multiple_of(every) || index + 1 == last {
             report.row(row(&chosen, case, &followed, reached))?;
         }
     }
