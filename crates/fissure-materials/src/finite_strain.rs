@@ -23,34 +23,32 @@ impl LeftStrain {
     ///
     /// # Errors
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
-    #[inline]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
+        let determinant = f.determinant();
         let h = f - Matrix3::identity();
         let second = h.m11 * h.m22 - h.m12 * h.m21 + h.m22 * h.m33 - h.m23 * h.m32 + h.m33 * h.m11
             - h.m31 * h.m13;
         let third = h.determinant();
         let dilation = h.trace() + second + third;
-        let square = h.norm_squared();
-        // A component that is not finite makes the square so.
-        if !(dilation > -1.0 && dilation.is_finite() && square.is_finite()) {
-            let determinant = f.determinant();
+        // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
+        // or less while the other is not.
+        let sound = determinant > 0.0 && determinant.is_finite() && dilation > -1.0;
+        if !(sound && f.iter().all(|c| c.is_finite())) {
             return Err(MaterialError::Deformation { determinant });
         }
         Ok(Self {
             excess: Sym::from_matrix(&h) * 2.0 + Sym::from_matrix(&(h * h.transpose())),
             dilation,
-            distortion: square - 2.0 * (second + third),
+            distortion: h.norm_squared() - 2.0 * (second + third),
         })
     }
 
     /// `J`.
-    #[inline]
     pub fn jacobian(&self) -> f64 {
         1.0 + self.dilation
     }
 
     /// `ln J`.
-    #[inline]
     pub fn log_jacobian(&self) -> f64 {
         self.dilation.ln_1p()
     }
@@ -59,7 +57,6 @@ impl LeftStrain {
 /// `x − ln(1 + x)`, of second order in `x`, to round-off.
 ///
 /// With `r = x/(2 + x)` it is `x r − 2 (r³/3 + r⁵/5 + …)`, from `ln(1 + x) = 2 artanh r`.
-#[inline]
 pub(crate) fn excess_over_log(x: f64) -> f64 {
     if x.abs() > 0.1 {
         return x - x.ln_1p();
@@ -104,5 +101,13 @@ mod tests {
         assert!(LeftStrain::new(&f).is_err());
         f.m11 = f64::NAN;
         assert!(LeftStrain::new(&f).is_err());
+        // Compressed to nothing along a turned axis: one of both determinants is above zero.
+        for angle in 0..1000 {
+            let (sin, cos) = (0.001 * f64::from(angle)).sin_cos();
+            let n = fissure_tensor::Vector3::new(cos, 0.6 * sin, 0.8 * sin);
+            let flat = Matrix3::identity() - n * n.transpose() / n.norm_squared();
+            let strain = LeftStrain::new(&flat);
+            assert!(strain.is_err() || strain.is_ok_and(|s| s.log_jacobian().is_finite()));
+        }
     }
 }
