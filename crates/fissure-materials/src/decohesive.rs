@@ -239,6 +239,10 @@ impl<S: Softening> Material for Decohesive<S> {
         self.point(scale).check_width(width)
     }
 
+    fn started_width(&self, old: &DecohesiveState, new: &DecohesiveState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
     fn isotropic(&self) -> bool {
         self.normal == Normal::Rankine
     }

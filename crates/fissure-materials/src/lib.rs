@@ -72,9 +72,9 @@ pub use lowered_strength::{Lowered, LoweredStrength, LoweredStrengthState};
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::Orthotropic;
-pub use path::{Axis, Component, Control, Leg, Path};
+pub use path::{Axis, Component, Control, Entry, GradientLeg, Leg, Path, Stage, SubSteps};
 pub use plane_stress::{PlaneStress, PlaneStressState};
-pub use point::{Point, PointError, Sample};
+pub use point::{Event, EventKind, History, Point, PointError, Sample};
 pub use scalar_damage::{
     DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,
     ScalarDamageState,
