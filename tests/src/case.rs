@@ -1,4 +1,4 @@
-//! The table: shape × transfer × space, and the stress updates for FLIP.
+//! The table: shape × transfer × stress update × space.
 
 use fissure::prelude::{ExplicitSettings, StressUpdate, Transfer};
 
@@ -83,29 +83,27 @@ impl Case {
     }
 }
 
-/// Every shape with every transfer in a space: FLIP with all three stress updates, the others with
-/// the stress last.
+/// Every shape with every transfer and every stress update in a space.
 pub fn cases(space: Space) -> Vec<Case> {
-    let flip = Transfer::Flip { pic: 0.0 };
-    let mut columns = vec![
-        (flip, StressUpdate::First),
-        (flip, StressUpdate::Last),
-        (flip, StressUpdate::Musl),
-        (Transfer::Flip { pic: 0.05 }, StressUpdate::Last),
-        (Transfer::Pic, StressUpdate::Last),
-        (Transfer::Apic, StressUpdate::Last),
+    let mut transfers = vec![
+        Transfer::Flip { pic: 0.0 },
+        Transfer::Flip { pic: 0.05 },
+        Transfer::Pic,
+        Transfer::Apic,
     ];
-    columns.extend((2..=5).map(|order| (Transfer::Xpic { order }, StressUpdate::Last)));
-    columns.extend((2..=3).map(|order| (Transfer::Fmpm { order }, StressUpdate::Last)));
-    ShapeKind::ALL
-        .iter()
-        .flat_map(|&shape| {
-            columns.iter().map(move |&(transfer, update)| Case {
-                space,
-                shape,
-                transfer,
-                update,
-            })
+    transfers.extend((2..=5).map(|order| Transfer::Xpic { order }));
+    transfers.extend((2..=3).map(|order| Transfer::Fmpm { order }));
+    let updates = [StressUpdate::First, StressUpdate::Last, StressUpdate::Musl];
+    let rows = ShapeKind::ALL.into_iter().flat_map(|shape| {
+        let columns = transfers
+            .iter()
+            .flat_map(|&transfer| updates.map(|u| (transfer, u)));
+        columns.map(move |(transfer, update)| Case {
+            space,
+            shape,
+            transfer,
+            update,
         })
-        .collect()
+    });
+    rows.collect()
 }

@@ -5,7 +5,7 @@ use fissure_scene::EnergyTotals;
 /// The energy ledger of a scene and the three identities that it keeps apart.
 ///
 /// 1. `W_ext = ΔK_grid + f_int·Δu`, step by step: the equations of motion of the grid. Holds to
-///    round-off; [`worst_balance`](Self::worst_balance) is by how much it did not.
+///    round-off in explicit steps; [`worst_balance`](Self::worst_balance) is by how much it did not.
 /// 2. `f_int·Δu = Δψ + ΔD` (and the work of artificial viscosity): the laws. Holds to first order
 ///    in the step, for a law whose stress is the derivative of its stored energy;
 ///    [`imbalance`](Self::imbalance) is the difference.
@@ -35,7 +35,8 @@ pub struct EnergyBalance {
     pub viscous: f64,
     /// K_particles: kinetic energy of the particles now, J.
     pub kinetic: f64,
-    /// Σ ΔK_grid = W_ext − Σ f_int·Δu: what the steps gave to the grid as kinetic energy, J.
+    /// Σ ΔK_grid = W_ext − Σ f_int·Δu: what the steps gave to the grid as kinetic energy, J. In a
+    /// quasi-static run, which has none, it is the error of the first identity.
     pub grid_kinetic_gain: f64,
     /// Σ (K_grid − K_particles) after the steps less the same before them: kinetic energy lost
     /// between particles and grid, J. Numerical dissipation of the transfer, mostly of PIC, APIC

@@ -186,21 +186,21 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
                     let both = value[j][1] * value[k][2];
-                    for i in 0..K {
-                        f(start + i, value[i][0] * both);
+                    for (i, along) in value.iter().enumerate() {
+                        f(start + i, along[0] * both);
                     }
                 }
             }
         } else if D == 2 {
             for j in 0..K {
                 let start = self.base + ROW * j;
-                for i in 0..K {
-                    f(start + i, value[i][0] * value[j][1]);
+                for (i, along) in value.iter().enumerate() {
+                    f(start + i, along[0] * value[j][1]);
                 }
             }
         } else {
-            for i in 0..K {
-                f(self.base + i, value[i][0]);
+            for (i, along) in value.iter().enumerate() {
+                f(self.base + i, along[0]);
             }
         }
     }
@@ -280,8 +280,10 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             }
         }
         // Loops, not closures: those would not be compiled for the vector unit.
-        let mut gathered = Gathered::default();
-        gathered.value = lanes.fold(value);
+        let mut gathered = Gathered {
+            value: lanes.fold(value),
+            ..Gathered::default()
+        };
         for axis in 0..D {
             if G {
                 gathered.gradient[axis] = lanes.fold(gradient[axis]);

@@ -44,7 +44,8 @@ pub trait Cracking: Material {
     /// Largest band with a unique response, m [Sanchez 2010, eq. 4.5.17].
     fn band_limit(&self, scale: &Scale) -> f64;
 
-    /// The stress that cracks are judged by, in the reference axes, from the Cauchy stress.
+    /// The stress that cracks are judged by, in the reference axes, from the Cauchy stress and the
+    /// whole deformation gradient: a law in plane stress is given the stretch that its state holds.
     ///
     /// The default is the stress conjugate to the Biot strain; a small-strain law has the same to
     /// first order.

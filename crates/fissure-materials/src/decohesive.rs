@@ -21,6 +21,7 @@ use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
     softening::{Linear, opening},
+    sound::{below, sound},
     turning::Turning,
 };
 
@@ -222,6 +223,7 @@ impl<S: Softening> Material for Decohesive<S> {
             toughness > 0.0,
             "finite and > 0",
         )?;
+        self.softening.check()?;
         if let Normal::Prescribed(normal) = self.normal {
             let length = normal.norm();
             check_parameter(NAME, "normal", length, length > 0.0, "finite, not zero")?;
@@ -235,6 +237,10 @@ impl<S: Softening> Material for Decohesive<S> {
             Normal::Rankine => band.max_width(),
         };
         self.point(scale).check_width(width)
+    }
+
+    fn started_width(&self, old: &DecohesiveState, new: &DecohesiveState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
     }
 
     fn isotropic(&self) -> bool {
@@ -257,6 +263,9 @@ impl<S: Softening> Material for Decohesive<S> {
         old: &DecohesiveState,
     ) -> Result<Response<DecohesiveState>, MaterialError> {
         let point = self.point(&increment.external.scale);
+        if let Some(response) = point.sound(increment, old)? {
+            return Ok(response);
+        }
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
@@ -299,7 +308,11 @@ impl<S: Softening> Material for Decohesive<S> {
             }
         }
         let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus) + widening;
-        Ok((point.response(&kinematics, &step, old), tangent))
+        let response = match point.sound(increment, old)? {
+            Some(response) => response,
+            None => point.response(&kinematics, &step, old),
+        };
+        Ok((response, tangent))
     }
 
     fn values(&self, state: &DecohesiveState, out: &mut [f64]) {
@@ -310,6 +323,21 @@ impl<S: Softening> Material for Decohesive<S> {
 }
 
 impl<S: Softening> Point<'_, S> {
+    /// The response without a crack where there is none and a bound rules one out.
+    #[inline]
+    fn sound(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+    ) -> Result<Option<Response<DecohesiveState>>, MaterialError> {
+        if old.width != 0.0 {
+            return Ok(None);
+        }
+        sound(&self.elastic, &increment.f_new, |stress| {
+            below(self.strength, stress)
+        })
+    }
+
     fn response(
         &self,
         kinematics: &Biot,
@@ -321,8 +349,9 @@ impl<S: Softening> Point<'_, S> {
         if state.width > 0.0 {
             let normal = Vector3::from(state.normal);
             elastic_strain -= Sym::dyad(&normal) * (state.opening / state.width);
-            dissipated = self.toughness / state.width
-                * (self.softening.area(state.softened) - self.softening.area(old.softened));
+            let spent = self.softening.area(state.softened) - self.softening.area(old.softened);
+            // Where a curve is flat the difference of two areas can be round-off below zero.
+            dissipated = self.toughness / state.width * spent.max(0.0);
         }
         Response {
             stress: kinematics.cauchy(&step.biot_stress),

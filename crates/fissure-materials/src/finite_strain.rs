@@ -25,15 +25,17 @@ impl LeftStrain {
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
     #[inline]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
+        let determinant = f.determinant();
         let h = f - Matrix3::identity();
         let second = h.m11 * h.m22 - h.m12 * h.m21 + h.m22 * h.m33 - h.m23 * h.m32 + h.m33 * h.m11
             - h.m31 * h.m13;
         let third = h.determinant();
         let dilation = h.trace() + second + third;
         let square = h.norm_squared();
-        // A component that is not finite makes the square so.
-        if !(dilation > -1.0 && dilation.is_finite() && square.is_finite()) {
-            let determinant = f.determinant();
+        // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
+        // or less while the other is not. A component that is not finite makes the square so.
+        let sound = determinant > 0.0 && determinant.is_finite() && dilation > -1.0;
+        if !(sound && square.is_finite()) {
             return Err(MaterialError::Deformation { determinant });
         }
         Ok(Self {
@@ -104,5 +106,13 @@ mod tests {
         assert!(LeftStrain::new(&f).is_err());
         f.m11 = f64::NAN;
         assert!(LeftStrain::new(&f).is_err());
+        // Compressed to nothing along a turned axis: one of both determinants is above zero.
+        for angle in 0..1000 {
+            let (sin, cos) = (0.001 * f64::from(angle)).sin_cos();
+            let n = fissure_tensor::Vector3::new(cos, 0.6 * sin, 0.8 * sin);
+            let flat = Matrix3::identity() - n * n.transpose() / n.norm_squared();
+            let strain = LeftStrain::new(&flat);
+            assert!(strain.is_err() || strain.is_ok_and(|s| s.log_jacobian().is_finite()));
+        }
     }
 }

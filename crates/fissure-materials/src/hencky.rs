@@ -2,13 +2,13 @@
 //!
 //! `ψ = λ/2 (tr h)² + μ h:h` with `h = ln V = ½ ln b`; Kirchhoff stress `τ = λ tr(h) 1 + 2μ h`,
 //! Cauchy stress `τ/J`. The principal values `h_i = ½ ln(1 + e_i)` come from those of `b − 1`, so
-//! they keep their relative accuracy near rest. On the principal axes `n_i` the spatial tangent is
-//! `J c_iijj = λ + 2μ δ_ij − 2 τ_i δ_ij` and `J c_ijij = μ x coth x − (τ_i + τ_j)/2` with
-//! `x = h_i − h_j`, smooth where principal strains coincide (Ogden 1997, sec. 6.1.4).
+//! they keep their relative accuracy near rest. The spatial tangent is that of `logarithmic.rs`
+//! with `∂τ_i/∂h_j = λ + 2μ δ_ij`.
 
-use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
+use fissure_tensor::{Matrix3, Sym, Tangent};
 
 use crate::finite_strain::LeftStrain;
+use crate::logarithmic::LogStrain;
 use crate::{Increment, Isotropic, Material, MaterialError, Response, Scale};
 
 const NAME: &str = "Hencky elasticity";
@@ -22,79 +22,36 @@ pub struct Hencky {
 
 /// Logarithmic strain and Kirchhoff stress on their common axes.
 struct Principal {
-    axes: [Vector3<f64>; 3],
-    log: [f64; 3],
+    strain: LogStrain,
     kirchhoff: [f64; 3],
-    jacobian: f64,
 }
 
 impl Principal {
     fn new(elastic: &Isotropic, f: &Matrix3<f64>) -> Result<Self, MaterialError> {
-        let strain = LeftStrain::new(f)?;
-        let spectrum = strain.excess.spectrum();
-        let log = spectrum.values.map(|excess| 0.5 * excess.ln_1p());
-        if !log.iter().all(|h| h.is_finite()) {
-            return Err(MaterialError::NotFinite { law: NAME });
-        }
-        let trace = strain.log_jacobian();
+        let left = LeftStrain::new(f)?;
+        let strain = LogStrain::new(&left.excess, left.dilation, NAME)?;
         let (lambda, shear) = (elastic.lambda(), elastic.shear_modulus());
+        let volumetric = lambda * strain.log_jacobian;
         Ok(Self {
-            axes: spectrum.vectors,
-            log,
-            kirchhoff: log.map(|h| lambda * trace + 2.0 * shear * h),
-            jacobian: strain.jacobian(),
+            kirchhoff: strain.values.map(|h| volumetric + 2.0 * shear * h),
+            strain,
         })
     }
 
     fn stress(&self) -> Sym {
-        (0..3)
-            .map(|i| Sym::dyad(&self.axes[i]) * (self.kirchhoff[i] / self.jacobian))
-            .sum()
+        self.strain.cauchy(&self.kirchhoff)
     }
 
     fn stored(&self) -> f64 {
-        0.5 * (0..3).map(|i| self.kirchhoff[i] * self.log[i]).sum::<f64>()
+        let products = self.kirchhoff.iter().zip(&self.strain.values);
+        0.5 * products.map(|(stress, h)| stress * h).sum::<f64>()
     }
 
     fn tangent(&self, elastic: &Isotropic) -> Tangent {
         let (lambda, shear) = (elastic.lambda(), elastic.shear_modulus());
-        let mut tangent = Tangent::isotropic(lambda, 0.0);
-        for i in 0..3 {
-            let normal = Sym::dyad(&self.axes[i]);
-            let modulus = 2.0 * shear - 2.0 * self.kirchhoff[i];
-            tangent = tangent + Tangent::dyad(&normal, &normal) * modulus;
-            for j in 0..i {
-                let mixed = Sym::dyad_of(&self.axes[i], &self.axes[j]);
-                let modulus = shear * x_coth_x(self.log[i] - self.log[j])
-                    - 0.5 * (self.kirchhoff[i] + self.kirchhoff[j]);
-                tangent = tangent + Tangent::dyad(&mixed, &mixed) * (4.0 * modulus);
-            }
-        }
-        tangent * (1.0 / self.jacobian)
-    }
-
-    /// Largest `ρc²` of the waves that run along a principal axis: `λ + 2μ − τ_i` for the
-    /// longitudinal one, `μ x (coth x + 1)` with `x = h_i − h_j` for those across.
-    fn wave_modulus(&self, elastic: &Isotropic) -> f64 {
-        let shear = elastic.shear_modulus();
-        let mut largest: f64 = 0.0;
-        for i in 0..3 {
-            largest = largest.max(elastic.p_wave_modulus() - self.kirchhoff[i]);
-            for j in 0..3 {
-                let x = self.log[i] - self.log[j];
-                largest = largest.max(shear * (x_coth_x(x) + x));
-            }
-        }
-        largest
-    }
-}
-
-/// `x coth x`, 1 at 0.
-fn x_coth_x(x: f64) -> f64 {
-    if x.abs() < 1e-4 {
-        1.0 + x * x / 3.0
-    } else {
-        x / x.tanh()
+        self.strain.spatial_tangent(&self.kirchhoff, shear, |i, j| {
+            if i == j { lambda + 2.0 * shear } else { lambda }
+        })
     }
 }
 
@@ -114,7 +71,8 @@ impl Material for Hencky {
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &(), scale: &Scale) -> f64 {
         let elastic = self.elastic.scaled(scale);
         let rest = elastic.p_wave_modulus();
-        let modulus = Principal::new(&elastic, f).map_or(rest, |p| p.wave_modulus(&elastic));
+        let modulus = Principal::new(&elastic, f)
+            .map_or(rest, |p| p.strain.wave_modulus(&elastic, &p.kirchhoff));
         (modulus.max(rest) / elastic.density).sqrt()
     }
 
@@ -138,6 +96,7 @@ impl Material for Hencky {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Vector3;
     use crate::testing::{assert_tangent, assert_wave_speed, gradients};
 
     const LAW: Hencky = Hencky {

@@ -32,6 +32,9 @@ pub struct External {
     pub temperature: f64,
     /// Damage from a nodal field, 0 (sound) to 1 (broken).
     pub damage: f64,
+    /// Share of an explosive that a detonation front has burnt, 0 to 1 (see
+    /// [`ProgramBurn`](crate::ProgramBurn)).
+    pub burned: f64,
     /// Factors on the law's parameters.
     pub scale: Scale,
 }

@@ -26,6 +26,11 @@ impl Isotropic {
         0.5 * self.young / (1.0 + self.poisson)
     }
 
+    /// Bulk modulus K, Pa.
+    pub fn bulk_modulus(&self) -> f64 {
+        self.young / (3.0 * (1.0 - 2.0 * self.poisson))
+    }
+
     /// `λ + 2μ`, Pa.
     pub fn p_wave_modulus(&self) -> f64 {
         self.lambda() + 2.0 * self.shear_modulus()
@@ -122,7 +127,7 @@ impl Material for Isotropic {
 
 /// A NaN would otherwise pass through the linear law unseen.
 #[inline]
-fn check_deformation(increment: &Increment) -> Result<(), MaterialError> {
+pub(crate) fn check_deformation(increment: &Increment) -> Result<(), MaterialError> {
     let determinant = increment.jacobian();
     if determinant > 0.0 && determinant.is_finite() {
         Ok(())

@@ -15,37 +15,71 @@
 //! # Ok::<(), fissure_materials::MaterialError>(())
 //! ```
 
+mod anisotropic_damage;
 mod biot;
+mod cohesive;
 pub mod contract;
 mod cracking;
+pub mod criteria;
 mod decohesive;
 mod equilibrium;
 mod error;
 mod finite_strain;
+pub mod hardening;
 mod hencky;
 mod increment;
 mod isotropic;
+mod j2;
+mod jwl;
+pub mod localization;
+mod logarithmic;
+mod lowered_strength;
 mod material;
+pub mod multi_crack;
 mod neo_hookean;
+mod orthotropic;
 mod path;
 mod plane_stress;
 mod point;
+mod rotated;
+mod scalar_damage;
 pub mod softening;
+mod sound;
+mod tension_shear;
 #[cfg(test)]
 mod testing;
+mod thermal;
 mod turning;
+mod viscous_damage;
 
+pub use anisotropic_damage::{
+    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
+    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+};
 pub use biot::Biot;
+pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};
 pub use cracking::{Crack, Cracking, Initiation};
 pub use decohesive::{Decohesive, DecohesiveState, Normal};
 pub use error::{MaterialError, check_parameter};
 pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
+pub use hardening::Hardening;
 pub use hencky::Hencky;
 pub use increment::{External, Increment, Response, Scale};
 pub use isotropic::Isotropic;
+pub use j2::{J2, J2State};
+pub use jwl::{Burn, Jwl, JwlState, ProgramBurn};
+pub use lowered_strength::{Lowered, LoweredStrength, LoweredStrengthState};
 pub use material::Material;
 pub use neo_hookean::NeoHookean;
-pub use path::{Axis, Component, Control, Leg, Path};
+pub use orthotropic::Orthotropic;
+pub use path::{Axis, Component, Control, Entry, GradientLeg, Leg, Path, Stage, SubSteps};
 pub use plane_stress::{PlaneStress, PlaneStressState};
-pub use point::{Point, PointError, Sample};
+pub use point::{Event, EventKind, History, Point, PointError, Sample};
+pub use scalar_damage::{
+    DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,
+    ScalarDamageState,
+};
 pub use softening::Softening;
+pub use tension_shear::Onset;
+pub use thermal::{Expansion, Thermal, ThermalState};
+pub use viscous_damage::{DamageSurface, Relaxation, ViscousDamage, ViscousDamageState};

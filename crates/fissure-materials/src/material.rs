@@ -43,6 +43,12 @@ pub trait Material: Send + Sync + 'static {
     /// checks hold the law to it. 0 for a law that such a division does not change.
     const STEP_ERROR: f64 = 1.0;
 
+    /// Whether the law determines its out-of-plane components itself, as in plane stress: it reads
+    /// only the in-plane components of `F`, states the rest in
+    /// [`out_of_plane_stretch`](Self::out_of_plane_stretch), and its tangent has none. The contract
+    /// checks then strain and turn it in the plane.
+    const PLANE: bool = false;
+
     /// Names of what [`values`](Self::values) writes, for output and probes.
     const NAMES: &'static [&'static str] = &[];
 
@@ -62,8 +68,23 @@ pub trait Material: Send + Sync + 'static {
         Ok(())
     }
 
+    /// Width of the widest crack that a step from `old` to `new` started, m; 0 if it started none.
+    ///
+    /// A law that wraps another and narrows the limit of the band, as
+    /// [`PlaneStress`](crate::PlaneStress) does, holds the cracks of the law inside to it.
+    fn started_width(&self, _old: &Self::State, _new: &Self::State) -> f64 {
+        0.0
+    }
+
     /// Whether the virgin law has no preferred direction in the reference configuration.
     fn isotropic(&self) -> bool {
+        true
+    }
+
+    /// Whether the stress is continuous in the end of a step. A law in which something drops at once
+    /// (a failure that leaves a traction, a crack that starts on another plane by a hair's breadth)
+    /// says `false`, and the contract checks leave the jumps of P11 out.
+    fn continuous(&self) -> bool {
         true
     }
 
@@ -136,12 +157,13 @@ pub fn difference_tangent<M: Material + ?Sized>(
     let kirchhoff = |d: &Sym, sign: f64| -> Result<Sym, MaterialError> {
         let f = (Matrix3::identity() + d.to_matrix() * (sign * step)) * increment.f_new;
         let response = law.update(&increment.with_end(f), old)?;
-        Ok(response.stress * f.determinant())
+        Ok(response.stress * completed(law, &f, &response.state).determinant())
     };
-    let jacobian = increment.jacobian();
-    let stress = law.update(increment, old)?.stress.to_matrix();
+    let here = law.update(increment, old)?;
+    let jacobian = completed(law, &increment.f_new, &here.state).determinant();
+    let stress = here.stress.to_matrix();
     let mut matrix = fissure_tensor::Matrix6::zeros();
-    for column in 0..6 {
+    for &column in columns::<M>() {
         let mut d = Sym::ZERO;
         d.mandel[column] = 1.0;
         let difference = (kirchhoff(&d, 1.0)? - kirchhoff(&d, -1.0)?) / (2.0 * step * jacobian);
@@ -150,4 +172,29 @@ pub fn difference_tangent<M: Material + ?Sized>(
         matrix.set_column(column, &(difference - convected).mandel.into());
     }
     Ok(Tangent(matrix))
+}
+
+/// Mandel components that a law can be strained by: all, or xx, yy and xy in the plane.
+pub(crate) fn columns<M: Material + ?Sized>() -> &'static [usize] {
+    if M::PLANE {
+        &[0, 1, 5]
+    } else {
+        &[0, 1, 2, 3, 4, 5]
+    }
+}
+
+/// The deformation gradient with the out-of-plane components that the law found; as it is for a
+/// law that reads them.
+pub(crate) fn completed<M: Material + ?Sized>(
+    law: &M,
+    f: &Matrix3<f64>,
+    state: &M::State,
+) -> Matrix3<f64> {
+    match law.out_of_plane_stretch(state) {
+        Some(stretch) => {
+            let [a, b, c, d] = [f.m11, f.m12, f.m21, f.m22];
+            Matrix3::new(a, b, 0.0, c, d, 0.0, 0.0, 0.0, stretch)
+        }
+        None => *f,
+    }
 }

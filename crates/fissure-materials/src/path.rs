@@ -1,12 +1,14 @@
-//! What a material point is put through: ordered legs, each strain- or stress-controlled per
-//! component.
+//! What a material point is put through: ordered legs, each controlled per component by strain or
+//! stress, or by entries of the deformation gradient.
 //!
 //! The strain is that of a symmetric deformation gradient, `F = 1 + ε`: the Biot strain `U − 1`,
 //! tensor components. The stress is Cauchy's. A rotation on top is [`Path::spin`]'s; strain and
 //! stress are then those in the frame that turns with the point. Over a leg every target is
 //! approached in a straight line from the value at its start.
 
-use fissure_tensor::{Band, Vector3};
+mod histories;
+
+use fissure_tensor::{Band, Matrix3, Vector3};
 
 use crate::External;
 
@@ -63,6 +65,78 @@ pub struct Leg {
     pub spin: Vector3<f64>,
 }
 
+/// What one entry of the deformation gradient is driven to by the end of a leg.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entry {
+    /// The entry stays where it is at the start of the leg.
+    Held,
+    /// The entry itself: 1 on the diagonal and 0 off it at rest.
+    Value(f64),
+    /// The entry follows from the Cauchy stress of these indices in the fixed axes, Pa. Of `F_ij`
+    /// and `F_ji` at most one: the stress does not determine a rotation.
+    Stress(f64),
+}
+
+/// A leg that drives the deformation gradient, in the fixed axes and with whatever rotation it has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GradientLeg {
+    /// Control of `F`, row by row.
+    pub entries: [[Entry; 3]; 3],
+    /// Steps; > 0.
+    pub steps: usize,
+    /// Length of a step, s; ≥ 0.
+    pub dt: f64,
+}
+
+/// One leg of a path, by what it controls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stage {
+    /// Strain, stress and a rotation.
+    Stretch(Leg),
+    /// Entries of the deformation gradient.
+    Gradient(GradientLeg),
+}
+
+impl Stage {
+    /// Steps of the leg.
+    pub fn steps(&self) -> usize {
+        match self {
+            Self::Stretch(leg) => leg.steps,
+            Self::Gradient(leg) => leg.steps,
+        }
+    }
+
+    /// Length of a step, s.
+    pub fn dt(&self) -> f64 {
+        match self {
+            Self::Stretch(leg) => leg.dt,
+            Self::Gradient(leg) => leg.dt,
+        }
+    }
+}
+
+/// When a step is divided. The parts are halves, quarters and so on; samples are still one a step.
+/// The tolerance is that of one part: what a crack's direction is off by at its start may grow later.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SubSteps {
+    /// How often a part may be halved; 0 never divides.
+    pub halvings: u32,
+    /// A part is halved while taking it in two changes the stress by more than this, Pa, and where
+    /// dissipation starts while the stress changes by more than this over the part; infinite to
+    /// divide only what the law refuses or where no equilibrium is found.
+    pub tolerance: f64,
+}
+
+impl Default for SubSteps {
+    /// Steps are taken whole.
+    fn default() -> Self {
+        Self {
+            halvings: 0,
+            tolerance: f64::INFINITY,
+        }
+    }
+}
+
 /// Ordered legs with the band and the surroundings of the point.
 ///
 /// ```
@@ -77,11 +151,13 @@ pub struct Leg {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// The legs, first to last.
-    pub legs: Vec<Leg>,
+    pub legs: Vec<Stage>,
     /// Width over which a crack is smeared.
     pub band: Band,
     /// Temperature, nodal damage and parameter scale.
     pub external: External,
+    /// When steps are divided.
+    pub sub_steps: SubSteps,
     /// Components that [`back`](Self::back) drives: those of the last leg that were not merely held.
     driven: [bool; 6],
     /// Step length of the legs to come, s.
@@ -117,6 +193,7 @@ impl Path {
             legs: Vec::new(),
             band,
             external: External::default(),
+            sub_steps: SubSteps::default(),
             driven: [false; 6],
             dt: 1.0,
         }
@@ -125,6 +202,11 @@ impl Path {
     /// Sets what is external to the law: temperature, nodal damage, parameter scale.
     pub fn external(self, external: External) -> Self {
         Self { external, ..self }
+    }
+
+    /// Divides steps where that is needed, on all legs.
+    pub fn sub_steps(self, sub_steps: SubSteps) -> Self {
+        Self { sub_steps, ..self }
     }
 
     /// Sets the step length of the legs added from here on, s.
@@ -191,14 +273,47 @@ impl Path {
             Control::Held => false,
             Control::Strain(to) | Control::Stress(to) => to != 0.0,
         });
-        self.legs.push(leg);
+        self.legs.push(Stage::Stretch(leg));
         self
     }
 
+    /// Entries of the deformation gradient, row by row, to the ends given.
+    ///
+    /// ```
+    /// use fissure_materials::{Band, Entry::*, Hencky, Isotropic, Path, Point};
+    /// let steel = Isotropic { density: 7800.0, young: 210e9, poisson: 0.3 };
+    /// // Simple shear with free normal stresses.
+    /// let path = Path::new(Band::cube(1e-3)).entries(
+    ///     [
+    ///         [Stress(0.0), Value(0.01), Held],
+    ///         [Held, Stress(0.0), Held],
+    ///         [Held, Held, Stress(0.0)],
+    ///     ],
+    ///     10,
+    /// );
+    /// let law = Hencky { elastic: steel };
+    /// let samples = Point::new(&law)?.drive(&path)?;
+    /// assert!(samples[9].cauchy().xx().abs() < 1.0);
+    /// # Ok::<(), fissure_materials::PointError>(())
+    /// ```
+    pub fn entries(mut self, entries: [[Entry; 3]; 3], steps: usize) -> Self {
+        self.driven = [false; 6];
+        let dt = self.dt;
+        self.legs
+            .push(Stage::Gradient(GradientLeg { entries, steps, dt }));
+        self
+    }
+
+    /// All of the deformation gradient to `to`.
+    pub fn gradient(self, to: &Matrix3<f64>, steps: usize) -> Self {
+        let entries = [0, 1, 2].map(|i| [0, 1, 2].map(|j| Entry::Value(to[(i, j)])));
+        self.entries(entries, steps)
+    }
+
     /// The driven components of the last leg to another end, everything else as in that leg but
-    /// without its spin. Adds nothing to a path without legs.
+    /// without its spin. Adds nothing to a path without legs or after a leg of gradients.
     pub fn back(mut self, to: f64, steps: usize) -> Self {
-        if let Some(last) = self.legs.last() {
+        if let Some(Stage::Stretch(last)) = self.legs.last() {
             let mut control = last.control;
             for (control, driven) in control.iter_mut().zip(self.driven) {
                 match control {
@@ -206,7 +321,7 @@ impl Path {
                     _ => {}
                 }
             }
-            self.legs.push(self.leg_of(control, steps));
+            self.legs.push(Stage::Stretch(self.leg_of(control, steps)));
         }
         self
     }
@@ -216,9 +331,10 @@ impl Path {
         (0..times).fold(self, |path, _| path.back(there, steps).back(home, steps))
     }
 
-    /// Turns the point about `axis` by `turns` full turns, evenly over the steps of the last leg.
+    /// Turns the point about `axis` by `turns` full turns, evenly over the steps of the last leg, unless
+    /// that drives the gradient.
     pub fn spin(mut self, axis: Axis, turns: f64) -> Self {
-        if let Some(leg) = self.legs.last_mut() {
+        if let Some(Stage::Stretch(leg)) = self.legs.last_mut() {
             leg.spin = axis.vector() * (std::f64::consts::TAU * turns);
         }
         self
@@ -245,7 +361,7 @@ impl Path {
             control[component as usize] = end;
             self.driven[component as usize] = true;
         }
-        self.legs.push(self.leg_of(control, steps));
+        self.legs.push(Stage::Stretch(self.leg_of(control, steps)));
         self
     }
 }

@@ -8,7 +8,7 @@ mod balance;
 #[cfg(test)]
 mod tests;
 
-use fissure_tensor::{Band, Matrix3, Sym, Tangent};
+use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use self::balance::{Solved, with_thickness};
@@ -55,6 +55,36 @@ impl<M: Material> PlaneStress<M> {
             stored: solved.response.stored,
             dissipated: solved.response.dissipated,
         }
+    }
+
+    /// The band against the limit of the law inside, lowered to that of plane stress.
+    fn check_relieved(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        let relief = self.relief(scale);
+        self.0
+            .check_band(&widened(band, 1.0 / relief), scale)
+            .map_err(|error| match error {
+                MaterialError::Band { law, width, limit } => MaterialError::Band {
+                    law,
+                    width: width * relief,
+                    limit: limit * relief,
+                },
+                other => other,
+            })
+    }
+
+    /// The step, with the bands of the cracks it started held to the limit of plane stress: the
+    /// law inside has only asked for its own, wider one.
+    fn checked(
+        &self,
+        increment: &Increment,
+        old: &PlaneStressState<M::State>,
+    ) -> Result<Solved<M::State>, MaterialError> {
+        let solved = self.solve(increment, old)?;
+        let width = self.0.started_width(&old.inner, &solved.response.state);
+        if width != 0.0 {
+            self.check_relieved(&Band::Uniform(width), &increment.external.scale)?;
+        }
+        Ok(solved)
     }
 
     /// Smallest ratio of the in-plane modulus at `σ₃₃ = 0` to that at `ε₃₃ = 0`, at rest; in (0, 1].
@@ -107,6 +137,7 @@ impl<M: Material> Material for PlaneStress<M> {
     const HYPERELASTIC: bool = M::HYPERELASTIC;
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
+    const PLANE: bool = true;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -123,21 +154,19 @@ impl<M: Material> Material for PlaneStress<M> {
     }
 
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
-        let relief = self.relief(scale);
-        self.0
-            .check_band(&widened(band, 1.0 / relief), scale)
-            .map_err(|error| match error {
-                MaterialError::Band { law, width, limit } => MaterialError::Band {
-                    law,
-                    width: width * relief,
-                    limit: limit * relief,
-                },
-                other => other,
-            })
+        self.check_relieved(band, scale)
+    }
+
+    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
+        self.0.started_width(&old.inner, &new.inner)
     }
 
     fn isotropic(&self) -> bool {
         self.0.isotropic()
+    }
+
+    fn continuous(&self) -> bool {
+        self.0.continuous()
     }
 
     fn density(&self) -> f64 {
@@ -163,7 +192,7 @@ impl<M: Material> Material for PlaneStress<M> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<Response<Self::State>, MaterialError> {
-        Ok(Self::response(&self.solve(increment, old)?))
+        Ok(Self::response(&self.checked(increment, old)?))
     }
 
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
@@ -175,7 +204,7 @@ impl<M: Material> Material for PlaneStress<M> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
-        let solved = self.solve(increment, old)?;
+        let solved = self.checked(increment, old)?;
         let tangent = condensed(&self.0.tangent(&solved.increment, &old.inner)?)?;
         Ok((Self::response(&solved), tangent))
     }
@@ -204,6 +233,18 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
 
     fn band_limit(&self, scale: &Scale) -> f64 {
         self.0.band_limit(scale) * self.relief(scale)
+    }
+
+    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
+        self.0.driving_stress(f, cauchy)
+    }
+
+    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.0.failure_along(stress, normal, scale)
+    }
+
+    fn associated(&self) -> bool {
+        self.0.associated()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {

@@ -6,11 +6,16 @@
 //! trapezoidal rule over the steps, so it converges with their number and is exact for laws that
 //! are linear in `ε` but for the steps in which they bend.
 
-use fissure_tensor::{Matrix3, Sym, rotation};
+mod events;
+mod sub_steps;
+mod targets;
+
+use fissure_tensor::{Matrix3, Sym};
 use thiserror::Error;
 
-use crate::equilibrium::{Failure, Problem, components, tensor};
-use crate::{Control, Increment, Leg, Material, MaterialError, Path};
+pub use self::events::{Event, EventKind, History};
+use self::targets::is_sound;
+use crate::{Material, MaterialError, Path};
 
 /// Why a point stopped. `leg` and `step` count from 0 and from 1.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -42,8 +47,13 @@ pub enum PointError {
         /// Largest difference to the stress asked for, Pa.
         unbalanced: f64,
     },
-    /// A leg has no steps, a negative step length or a target that is not a number.
-    #[error("leg {leg}: needs steps > 0, a step length ≥ 0 and finite targets and spin")]
+    /// A leg has no steps, a negative step length, a target that is not a number, or a stress for
+    /// both of two entries of the gradient that mirror each other; or the tolerance of the
+    /// sub-steps is not above zero.
+    #[error(
+        "leg {leg}: needs steps > 0, a step length ≥ 0, finite targets and spin, a stress for at \
+         most one of F_ij and F_ji, and a tolerance of sub-steps > 0"
+    )]
     Leg {
         /// The leg.
         leg: usize,
@@ -73,12 +83,19 @@ pub struct Sample<S> {
     pub dissipated: f64,
     /// Work done so far.
     pub work: f64,
+    /// Parts that the step was divided into.
+    pub parts: usize,
 }
 
 impl<S> Sample<S> {
     /// `F = R (1 + ε)`.
     pub fn deformation_gradient(&self) -> Matrix3<f64> {
         self.rotation * (Matrix3::identity() + self.strain.to_matrix())
+    }
+
+    /// Cauchy stress in the fixed axes, Pa.
+    pub fn cauchy(&self) -> Sym {
+        self.stress.congruence(&self.rotation)
     }
 
     /// Stress conjugate to the strain, `sym(J σ̂ U⁻¹)`, Pa; zero where `U` is singular.
@@ -127,6 +144,7 @@ impl<'a, M: Material> Point<'a, M> {
                 stored: 0.0,
                 dissipated: 0.0,
                 work: 0.0,
+                parts: 0,
             },
         })
     }
@@ -146,7 +164,7 @@ impl<'a, M: Material> Point<'a, M> {
     /// [`PointError`]. The point then stays at the last step it could take, see
     /// [`drive_with`](Self::drive_with) for the samples up to there.
     pub fn drive(&mut self, path: &Path) -> Result<Vec<Sample<M::State>>, PointError> {
-        let mut samples = Vec::with_capacity(path.legs.iter().map(|leg| leg.steps).sum());
+        let mut samples = Vec::with_capacity(path.legs.iter().map(|leg| leg.steps()).sum());
         self.drive_with(path, |sample| samples.push(*sample))?;
         Ok(samples)
     }
@@ -160,103 +178,26 @@ impl<'a, M: Material> Point<'a, M> {
         path: &Path,
         mut visit: impl FnMut(&Sample<M::State>),
     ) -> Result<(), PointError> {
-        self.law.check_band(&path.band, &path.external.scale)?;
-        for (index, leg) in path.legs.iter().enumerate() {
-            if !is_sound(leg) {
-                return Err(PointError::Leg { leg: index });
-            }
-        }
+        self.check(path)?;
         for (index, leg) in path.legs.iter().enumerate() {
             let start = self.now;
-            for step in 1..=leg.steps {
-                self.step(path, index, step, &start)?;
+            for step in 1..=leg.steps() {
+                self.step(path, index, step, &start, |_| ())?;
                 visit(&self.now);
             }
         }
         Ok(())
     }
 
-    fn step(
-        &mut self,
-        path: &Path,
-        index: usize,
-        step: usize,
-        start: &Sample<M::State>,
-    ) -> Result<(), PointError> {
-        let leg = &path.legs[index];
-        let fraction = step as f64 / leg.steps as f64;
-        let (strain, stress) = self.targets(leg, start, fraction);
-        let old = self.now;
-        let problem = Problem {
-            law: self.law,
-            old: &old.state,
-            increment: Increment {
-                f_old: old.deformation_gradient(),
-                f_new: old.deformation_gradient(),
-                dt: leg.dt,
-                band: path.band,
-                external: path.external,
-            },
-            rotation: rotation(&leg.spin, leg.spin.norm() * fraction) * start.rotation,
-            stress,
-            modulus: self.modulus(path),
-        };
-        let mut trial = problem.solve(strain).map_err(|failure| match failure {
-            Failure::Law(source) => PointError::Update {
-                leg: index,
-                step,
-                source,
-            },
-            Failure::Unbalanced(unbalanced) => PointError::NoEquilibrium {
-                leg: index,
-                step,
-                unbalanced,
-            },
-        })?;
-        if let Some(stretch) = self.law.out_of_plane_stretch(&trial.response.state) {
-            trial.strain.mandel[2] = stretch - 1.0;
+    /// Refuses a band or a path that cannot be followed.
+    fn check(&self, path: &Path) -> Result<(), PointError> {
+        self.law.check_band(&path.band, &path.external.scale)?;
+        for (index, leg) in path.legs.iter().enumerate() {
+            if !(is_sound(leg) && path.sub_steps.tolerance > 0.0) {
+                return Err(PointError::Leg { leg: index });
+            }
         }
-        self.now = Sample {
-            leg: index,
-            step,
-            time: old.time + leg.dt,
-            strain: trial.strain,
-            stress: trial.stress,
-            rotation: problem.rotation,
-            state: trial.response.state,
-            stored: trial.response.stored,
-            dissipated: old.dissipated + trial.response.dissipated,
-            work: old.work,
-        };
-        let mean_stress = (old.biot_stress() + self.now.biot_stress()) * 0.5;
-        self.now.work += mean_stress.dot(&(self.now.strain - old.strain));
         Ok(())
-    }
-
-    /// Strain to start from (final where it is controlled) and the stresses asked for.
-    fn targets(
-        &self,
-        leg: &Leg,
-        start: &Sample<M::State>,
-        fraction: f64,
-    ) -> (Sym, [Option<f64>; 6]) {
-        let (first_strain, first_stress) = (components(&start.strain), components(&start.stress));
-        let mut strain = components(&self.now.strain);
-        let mut stress = [None; 6];
-        let plane = self.law.out_of_plane_stretch(&self.now.state).is_some();
-        for i in 0..6 {
-            if plane && (2..5).contains(&i) {
-                continue;
-            }
-            // In this form the last step ends on the target to the last bit.
-            let between = |first: f64, end: f64| first * (1.0 - fraction) + end * fraction;
-            match leg.control[i] {
-                Control::Held => strain[i] = first_strain[i],
-                Control::Strain(end) => strain[i] = between(first_strain[i], end),
-                Control::Stress(end) => stress[i] = Some(between(first_stress[i], end)),
-            }
-        }
-        (tensor(&strain), stress)
     }
 
     /// P-wave modulus at rest, Pa.
@@ -268,14 +209,6 @@ impl<'a, M: Material> Point<'a, M> {
             .wave_speed(&identity, &initial, &path.external.scale);
         self.law.density() * speed * speed
     }
-}
-
-fn is_sound(leg: &Leg) -> bool {
-    let targets = leg.control.iter().all(|control| match control {
-        Control::Held => true,
-        Control::Strain(end) | Control::Stress(end) => end.is_finite(),
-    });
-    leg.steps > 0 && leg.dt >= 0.0 && targets && leg.spin.iter().all(|c| c.is_finite())
 }
 
 #[cfg(test)]

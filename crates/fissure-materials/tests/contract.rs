@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicU64;
 
 use fissure_materials::{
     Band, Cracking, Decohesive, Hencky, Increment, Isotropic, Material, MaterialError, Matrix3,
-    NeoHookean, Normal, Vector3,
+    NeoHookean, Normal, PlaneStress, Vector3,
     contract::{self, Contract, Summary, Violation},
     softening::Linear,
 };
@@ -50,6 +50,7 @@ fn breaks(outcome: Result<Summary, Violation>, property: &str) {
         "smallest failing case",
         "seed",
         "step 1",
+        ".replay",
     ] {
         assert!(message.contains(part), "'{part}' is missing in: {message}");
     }
@@ -69,6 +70,24 @@ fn finite_elasticity_passes() {
         young: 1e6,
         poisson: 0.3,
     });
+}
+
+#[test]
+fn elasticity_in_plane_stress_passes() {
+    passes(&PlaneStress(CONCRETE));
+    passes(&PlaneStress(Hencky { elastic: CONCRETE }));
+    passes(&PlaneStress(NeoHookean {
+        density: 1000.0,
+        young: 1e6,
+        poisson: 0.3,
+    }));
+}
+
+#[test]
+fn decohesive_in_plane_stress_passes() {
+    passes_cracking(&PlaneStress(decohesive(Normal::Rankine)));
+    let normal = Vector3::new(1.0, 2.0, 0.0);
+    passes_cracking(&PlaneStress(decohesive(Normal::Prescribed(normal))));
 }
 
 #[test]
@@ -129,8 +148,12 @@ fn any_seed_passes() {
 
 #[test]
 fn cracking_is_exercised() {
-    let summary = contract::check_cracking(&decohesive(Normal::Rankine));
-    let summary = summary.expect("the law passes");
+    exercised(&decohesive(Normal::Rankine));
+    exercised(&PlaneStress(decohesive(Normal::Rankine)));
+}
+
+fn exercised(law: &impl Cracking) {
+    let summary = contract::check_cracking(law).expect("the law passes");
     assert!(
         summary.softened > 50 && summary.failed > 20,
         "{} softened, {} failed",
@@ -147,7 +170,12 @@ fn cracking_is_exercised() {
 #[test]
 fn a_wrong_tangent_is_found() {
     let law = broken::WrongTangent(decohesive(Normal::Rankine));
-    breaks(contract::check(&law), "P3 tangent");
+    let outcome = contract::check(&law);
+    // The message that docs/own-law.md shows.
+    let message = outcome.as_ref().map_err(|v| v.to_string()).err();
+    let call = ".replay(&law, \"P3 tangent\", 0)";
+    assert!(message.is_some_and(|message| message.contains(call)));
+    breaks(outcome, "P3 tangent");
 }
 
 #[test]
@@ -172,6 +200,40 @@ fn a_wrong_fracture_energy_is_found() {
 fn hidden_state_is_found() {
     let law = broken::HiddenState(decohesive(Normal::Rankine), AtomicU64::new(0));
     breaks(contract::check(&law), "P22 determinism");
+}
+
+#[test]
+fn a_violation_is_found_again_by_its_sample_and_by_its_case() {
+    let law = broken::WrongFractureEnergy(decohesive(Normal::Rankine));
+    let contract = Contract {
+        seed: 3,
+        ..Contract::default()
+    };
+    let found = contract
+        .check_cracking(&law)
+        .expect_err("a broken law passed");
+    let sample = found.replay.sample.expect("one case failed");
+    let again = found
+        .replay
+        .contract
+        .replay_cracking(&law, found.property, sample);
+    assert_eq!(again.as_ref(), Err(&found));
+    let call = format!(
+        "Contract {{ seed: 0x3, ..Contract::default() }}.replay_cracking(&law, \"P8 fracture energy\", {sample})"
+    );
+    assert!(found.to_string().contains(&call), "{found}");
+    // The small case alone, by the number of the property.
+    let alone = contract.judge_cracking(&law, "P8", &found.case);
+    assert_eq!(alone.map_err(|v| v.case), Err(found.case.clone()));
+    // A law that is right passes the same case, and it is one.
+    let right = contract
+        .judge_cracking(&law.0, "P8", &found.case)
+        .expect("passes");
+    assert_eq!((right.tallies.len(), right.tallies[0].exercised), (1, 1));
+    let unknown = contract
+        .replay(&law, "P99", 0)
+        .expect_err("there is no P99");
+    assert!(unknown.explanation.contains("P3 tangent"), "{unknown}");
 }
 
 #[test]
@@ -206,6 +268,37 @@ fn every_small_fault_is_found_by_its_property() {
         let name = contract.check_cracking(&law).map_err(|v| v.property);
         assert_eq!(name.err(), Some(property), "{fault:?}");
     }
+}
+
+#[test]
+fn a_crack_over_a_band_too_wide_for_plane_stress_is_refused() {
+    // Between the limit of plane stress and that of the law inside, seen only when it starts.
+    let law = PlaneStress(decohesive(Normal::Prescribed(Vector3::x())));
+    let limit = law.band_limit(&Default::default());
+    assert!(limit < 0.96 * law.0.band_limit(&Default::default()));
+    let edge = 0.72 * limit;
+    let band = Band::Projected([edge, edge, 0.0]);
+    assert_eq!(law.check_band(&band, &Default::default()), Ok(()));
+    let stretch = Matrix3::from_diagonal(&Vector3::new(1.001, 1.0, 1.0));
+    let turn = rotation(&Vector3::z(), std::f64::consts::FRAC_PI_4);
+    let along = Increment {
+        band,
+        ..Increment::to(stretch)
+    };
+    assert!(law.update(&along, &law.initial()).is_ok());
+    let refused = law.update(&along.with_end(turn * stretch), &law.initial());
+    let Err(MaterialError::Band {
+        width, limit: told, ..
+    }) = refused
+    else {
+        unreachable!("{refused:?}");
+    };
+    assert!((width / (edge * 2.0_f64.sqrt()) - 1.0).abs() < 1e-9);
+    assert!(
+        (told / limit - 1.0).abs() < 1e-9
+            && width > told
+            && width < law.0.band_limit(&Default::default())
+    );
 }
 
 #[test]

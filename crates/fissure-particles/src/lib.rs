@@ -8,6 +8,8 @@
 //!   [`HalfSpace`], [`Where`] a closure holds, and what [`Compose`] makes of them.
 //! - A [`Seeding`] says where in a region particles go: [`Spacing`], [`PerCell`], [`InCell`],
 //!   [`Turned`].
+//! - [`WhiteNoise`] and [`RandomField`] give random numbers by id and by place, of which a
+//!   [`Marginal`] makes factors on strengths.
 //!
 //! Lengths are in m, masses in kg, stresses in Pa, angles in rad. Space has `D` dimensions, tensors
 //! three. Everything here gives the same bits for any number of threads.
@@ -42,6 +44,7 @@ mod motion;
 mod motion_slices;
 mod order;
 mod particles;
+mod random;
 mod region;
 mod seeding;
 
@@ -51,6 +54,9 @@ pub use motion::Motion;
 pub use motion_slices::{MotionSlices, MotionSlicesMut};
 pub use order::{reorder_column, sort_permutation};
 pub use particles::{ParticleId, Particles};
+pub use random::{
+    Correlation, Embedding, FieldError, FieldSampler, Marginal, RandomField, WhiteNoise,
+};
 pub use region::{
     Ball, Block, Compose, Cylinder, Difference, HalfSpace, Intersection, Polygon, Region,
     RegionError, Rotated, Translated, Union, Where,

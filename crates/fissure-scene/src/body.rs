@@ -173,9 +173,13 @@ impl<const D: usize> Body<D> {
                     let Some(part) = rest.take() else { continue };
                     let (mut part, left) = part.cut(run.len());
                     rest = Some(left);
-                    let constants = constants.of(run);
-                    kernel.gather(run, &constants, &part.old, &mut part.new)?;
-                    kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
+                    let given = constants.of(run);
+                    let moved = kernel.gather(run, &given, &part.old, &mut part.new);
+                    if let Err(failure) = moved {
+                        let (old, new) = (&part.old, &mut part.new);
+                        return Err(failure.lowest(kernel, run, &constants, old, new));
+                    }
+                    kernel.scatter(run, &given, &part.old, &part.new.as_slices());
                 }
                 Ok(())
             })

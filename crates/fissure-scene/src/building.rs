@@ -188,7 +188,7 @@ impl<const D: usize> Scene<D> {
     /// Gives every particle of a body a velocity, m/s, by its place.
     ///
     /// # Errors
-    /// An unknown body, or a velocity that is not finite.
+    /// An unknown body, or a velocity that is not finite; nothing is changed then.
     pub fn set_velocity(
         &mut self,
         body: &str,
@@ -196,16 +196,16 @@ impl<const D: usize> Scene<D> {
     ) -> Result<&mut Self, SceneError> {
         let index = self.body_index(body)?;
         let motion = &mut self.bodies[index].particles.motion;
-        for (x, v) in motion.position.iter().zip(&mut motion.velocity) {
-            *v = velocity(x);
-            if let Some(&value) = v.iter().find(|c| !c.is_finite()) {
-                return Err(SceneError::Parameter {
-                    parameter: "velocity",
-                    value,
-                    permitted: "finite",
-                });
-            }
+        let velocities: Vec<SVector<f64, D>> = motion.position.iter().map(velocity).collect();
+        let mut components = velocities.iter().flat_map(|v| v.iter());
+        if let Some(&value) = components.find(|c| !c.is_finite()) {
+            return Err(SceneError::Parameter {
+                parameter: "velocity",
+                value,
+                permitted: "finite",
+            });
         }
+        motion.velocity = velocities;
         self.energy.kinetic = self.bodies.iter().map(Body::kinetic_energy).sum();
         self.edits += 1;
         Ok(self)
@@ -221,19 +221,7 @@ impl<const D: usize> Scene<D> {
         select: impl Fn(&SVector<f64, D>) -> bool,
         scale: Scale,
     ) -> Result<&mut Self, SceneError> {
-        for (parameter, value) in [
-            ("scale of stiffness", scale.stiffness),
-            ("scale of strength", scale.strength),
-            ("scale of toughness", scale.toughness),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(SceneError::Parameter {
-                    parameter,
-                    value,
-                    permitted: "finite and > 0",
-                });
-            }
-        }
+        check_scale(&scale)?;
         let index = self.body_index(body)?;
         let chosen: Vec<bool> = {
             let position = &self.bodies[index].particles.motion.position;
@@ -254,6 +242,35 @@ impl<const D: usize> Scene<D> {
             if chosen {
                 entry.0 = scale;
             }
+        }
+        self.edits += 1;
+        Ok(self)
+    }
+
+    /// Scales the law's parameters of every particle of a body by its id and place: a strength field
+    /// from [`WhiteNoise`](fissure_particles::WhiteNoise) or a
+    /// [`RandomField`](fissure_particles::RandomField). Nothing is changed where one is refused.
+    ///
+    /// # Errors
+    /// An unknown body, a factor that is not positive.
+    pub fn set_scales(
+        &mut self,
+        body: &str,
+        scale: impl Fn(ParticleId, &SVector<f64, D>) -> Scale,
+    ) -> Result<&mut Self, SceneError> {
+        let index = self.body_index(body)?;
+        let particles = &self.bodies[index].particles;
+        let pairs = particles.id.iter().zip(&particles.motion.position);
+        let scales: Vec<Scale> = pairs.map(|(&id, x)| scale(id, x)).collect();
+        scales.iter().try_for_each(check_scale)?;
+        let entries = self.bodies[index]
+            .scales_mut()
+            .map_err(|source| SceneError::Column {
+                body: body.to_owned(),
+                source,
+            })?;
+        for (entry, scale) in entries.iter_mut().zip(scales) {
+            entry.0 = scale;
         }
         self.edits += 1;
         Ok(self)
@@ -333,4 +350,22 @@ impl<const D: usize> Scene<D> {
         }
         Ok(())
     }
+}
+
+/// Refuses factors that are not positive.
+fn check_scale(scale: &Scale) -> Result<(), SceneError> {
+    for (parameter, value) in [
+        ("scale of stiffness", scale.stiffness),
+        ("scale of strength", scale.strength),
+        ("scale of toughness", scale.toughness),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(SceneError::Parameter {
+                parameter,
+                value,
+                permitted: "finite and > 0",
+            });
+        }
+    }
+    Ok(())
 }

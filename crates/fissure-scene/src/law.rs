@@ -265,7 +265,11 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                 let (mut part, left) = part.cut(run.len());
                 rest = Some(left);
                 let constants = self.constants.of(run);
-                kernel.gather(run, &constants, &part.old, &mut part.new)?;
+                let moved = kernel.gather(run, &constants, &part.old, &mut part.new);
+                if let Err(failure) = moved {
+                    let (old, new) = (&part.old, &mut part.new);
+                    return Err(failure.lowest(kernel, run, &self.constants, old, new));
+                }
                 let totals = self.run(run, kernel, &mut part);
                 if totals.is_ok() {
                     kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
@@ -337,15 +341,15 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                     totals.wave_speed = totals.wave_speed.max(speed);
                     // The law may have set its own thickness.
                     increment.f_new.m33 = new.deformation_gradient[row].m33;
-                    let pressure = self.viscous_pressure(&increment, speed);
+                    let sheet = self.law.out_of_plane_stretch(&trial[row]).is_some();
+                    let (pressure, work) = self.viscous_pressure(&increment, speed, sheet);
                     if pressure > 0.0 {
                         let mut viscous = Sym::IDENTITY * pressure;
-                        if self.law.out_of_plane_stretch(&trial[row]).is_some() {
+                        if sheet {
                             viscous.mandel[2] = 0.0;
                         }
                         new.stress[row] -= viscous;
-                        let compressed = increment.f_old.determinant() - increment.jacobian();
-                        totals.viscous += pressure * compressed * volume;
+                        totals.viscous += work * volume;
                     }
                 }
                 Err(source) => {
@@ -364,19 +368,28 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         failure.map_or(Ok(totals), Err)
     }
 
-    /// Artificial pressure, Pa; zero in expansion.
-    fn viscous_pressure(&self, increment: &Increment, wave_speed: f64) -> f64 {
+    /// Artificial pressure, Pa, and its work per reference volume, J/m³; zero in expansion. In a
+    /// `sheet` under plane stress no pressure acts across, so it is the area that counts.
+    fn viscous_pressure(&self, increment: &Increment, wave_speed: f64, sheet: bool) -> (f64, f64) {
         let Some(viscosity) = self.settings.viscosity else {
-            return 0.0;
+            return (0.0, 0.0);
         };
         let jacobian = increment.jacobian();
-        let rate = (increment.f_old.determinant() - jacobian) / (jacobian * self.settings.dt);
+        let (mut before, mut now, mut thickness) = (increment.f_old.determinant(), jacobian, 1.0);
+        if sheet {
+            thickness = increment.f_new.m33;
+            before /= increment.f_old.m33;
+            now /= thickness;
+        }
+        let rate = (before - now) / (now * self.settings.dt);
         if rate <= 0.0 {
-            return 0.0;
+            return (0.0, 0.0);
         }
         let speed = rate * viscosity.length;
         let density = self.constants.density / jacobian;
-        density * speed * (viscosity.linear * wave_speed + viscosity.quadratic * speed)
+        let pressure =
+            density * speed * (viscosity.linear * wave_speed + viscosity.quadratic * speed);
+        (pressure, pressure * (before - now) * thickness)
     }
 
     fn failure(&self, index: usize, cause: SweepCause) -> SweepFailure {

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 /// Energies of one step, J.
 ///
 /// The ledger keeps apart what is an identity from what is an approximation:
-/// `external = Δkinetic_grid + internal` holds to round-off; `internal = Δstored + dissipated`
+/// `external = Δkinetic_grid + internal` holds to round-off in an explicit step (in a quasi-static
+/// one to what equilibrium and the fresh grid of the next step leave); `internal = Δstored + dissipated`
 /// to first order in the step, if the nodes that do the work also strain the particles (with MUSL
 /// the particles' own velocities do, and a dissipative transfer shows here too);
 /// `kinetic_grid − kinetic_particles` is what the transfer between particles and grid loses.

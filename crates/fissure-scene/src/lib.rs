@@ -47,5 +47,6 @@ pub use persist::Section;
 pub use scene::Scene;
 pub use solver::{RunSummary, Solver, Until, Watch, run};
 pub use sweep::{
-    KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, TileKernel, Viscosity,
+    ByRun, KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, TileKernel,
+    Viscosity,
 };

@@ -4,6 +4,8 @@ use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::Band;
 
+use crate::law::Constants;
+
 /// Consecutive particles of one body that lie in one tile of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
@@ -37,6 +39,38 @@ pub struct KernelFailure {
     pub index: usize,
 }
 
+impl KernelFailure {
+    /// Of the particles of a run that a kernel cannot move the one with the lowest id, whatever
+    /// their order: the kernel, which stopped at the first, is asked for each one by itself.
+    pub(crate) fn lowest<const D: usize>(
+        self,
+        kernel: &mut dyn TileKernel<D>,
+        run: &Run,
+        constants: &Constants<'_>,
+        old: &MotionSlices<'_, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) -> Self {
+        let mut lowest = self.index;
+        for row in self.index + 1 - run.start as usize..run.len() {
+            let start = run.start + row as u32;
+            let alone = Run {
+                start,
+                end: start + 1,
+                tile: run.tile,
+            };
+            let (old, _) = old.split_at(row).1.split_at(1);
+            let (mut new, _) = new.reborrow().split_at(row).1.split_at(1);
+            let failed = kernel
+                .gather(&alone, &constants.of(&alone), &old, &mut new)
+                .is_err();
+            if failed && constants.id[start as usize] < constants.id[lowest] {
+                lowest = start as usize;
+            }
+        }
+        Self { index: lowest }
+    }
+}
+
 /// What does not change of the particles of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunConstants<'a> {
@@ -59,6 +93,42 @@ pub trait RunKernel<const D: usize>: Sync {
         tile: u32,
         work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure>;
+}
+
+/// A kernel that fills the trial motion by a function of a run and the present motion, which gives
+/// the failing row, and shares nothing within a tile.
+pub struct ByRun<F>(pub F);
+
+impl<const D: usize, F> RunKernel<D> for ByRun<F>
+where
+    F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize> + Sync,
+{
+    fn on_tile(
+        &self,
+        _tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        work(&mut OneRun(&self.0))
+    }
+}
+
+struct OneRun<'a, F>(&'a F);
+
+impl<const D: usize, F> TileKernel<D> for OneRun<'_, F>
+where
+    F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize>,
+{
+    fn gather(
+        &mut self,
+        run: &Run,
+        _constants: &RunConstants<'_>,
+        old: &MotionSlices<'_, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) -> Result<(), KernelFailure> {
+        self.0(run, old, new).map_err(|row| KernelFailure {
+            index: run.start as usize + row,
+        })
+    }
 }
 
 /// A kernel at work on a tile.
@@ -95,7 +165,8 @@ pub trait TileKernel<const D: usize> {
 }
 
 /// Artificial bulk viscosity of von Neumann and Richtmyer: in compression at the rate `−D` the
-/// pressure `ρ ℓ D (linear·c + quadratic·ℓ D)` is added to the stress.
+/// pressure `ρ ℓ D (linear·c + quadratic·ℓ D)` is added to the stress. `−D` is the rate of the
+/// volume; in plane stress that of the area, in the plane of which alone the pressure acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscosity {
     /// Coefficient of the linear term; usually 0.06 to 0.5.

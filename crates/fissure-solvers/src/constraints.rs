@@ -23,6 +23,9 @@ pub(crate) struct HeldNode<const D: usize> {
     pub speeds: [f64; D],
     /// Condition that prescribes each.
     pub conditions: [usize; D],
+    /// The direction along which each condition pushes, a unit vector in the span of `directions`
+    /// up to its own: skew to the ones before where two rollers are.
+    pushes: [SVector<f64, D>; D],
 }
 
 impl<const D: usize> HeldNode<D> {
@@ -33,11 +36,20 @@ impl<const D: usize> HeldNode<D> {
             directions: [SVector::zeros(); D],
             speeds: [0.0; D],
             conditions: [0; D],
+            pushes: [SVector::zeros(); D],
         }
     }
 
-    /// Adds `v·direction = speed` unless the held directions already decide it.
-    fn prescribe(&mut self, direction: SVector<f64, D>, speed: f64, condition: usize) {
+    /// Adds `v·direction = speed` unless the held directions already decide it. A roller pushes
+    /// along its own `direction`; a clamp (`clamped`), which has no direction of its own, along
+    /// what it adds to the held ones.
+    fn prescribe(
+        &mut self,
+        direction: SVector<f64, D>,
+        speed: f64,
+        condition: usize,
+        clamped: bool,
+    ) {
         let (mut rest, mut known) = (direction, 0.0);
         for k in 0..self.count {
             let part = self.directions[k].dot(&direction);
@@ -49,6 +61,7 @@ impl<const D: usize> HeldNode<D> {
             return;
         }
         self.directions[self.count] = rest / length;
+        self.pushes[self.count] = if clamped { rest / length } else { direction };
         self.speeds[self.count] = (speed - known) / length;
         self.conditions[self.count] = condition;
         self.count += 1;
@@ -61,6 +74,27 @@ impl<const D: usize> HeldNode<D> {
             v += self.directions[k] * (self.speeds[k] - self.directions[k].dot(velocity));
         }
         v
+    }
+
+    /// Force (or impulse) of each held condition, the sum of which is the part of `force` along
+    /// the held directions.
+    ///
+    /// Every condition pushes along its own `n_j` alone: `Σ_j λ_j n_j = Σ_k q_k (q_k·force)` with
+    /// `n_j` in the span of `q_1 … q_j`, so the multipliers follow from the last to the first,
+    /// `λ_k = (q_k·force − Σ_{j>k} λ_j q_k·n_j) / q_k·n_k`.
+    pub(crate) fn reactions(
+        &self,
+        force: &SVector<f64, D>,
+    ) -> impl Iterator<Item = (usize, SVector<f64, D>)> {
+        let mut multipliers = [0.0; D];
+        for k in (0..self.count).rev() {
+            let direction = &self.directions[k];
+            let others: f64 = (k + 1..self.count)
+                .map(|j| multipliers[j] * direction.dot(&self.pushes[j]))
+                .sum();
+            multipliers[k] = (direction.dot(force) - others) / direction.dot(&self.pushes[k]);
+        }
+        (0..self.count).map(move |k| (self.conditions[k], self.pushes[k] * multipliers[k]))
     }
 }
 
@@ -102,13 +136,14 @@ impl<const D: usize> Constraints<D> {
                     continue;
                 };
                 let direction = hold.direction();
-                node.prescribe(direction, speed.at(time), index);
-                if let Hold::All(_) = hold {
+                let clamped = matches!(hold, Hold::All(_));
+                node.prescribe(direction, speed.at(time), index, clamped);
+                if clamped {
                     for axis in 0..D {
                         let mut across = SVector::zeros();
                         across[axis] = 1.0;
                         // The part along the direction moves with it, the rest stands still.
-                        node.prescribe(across, speed.at(time) * direction[axis], index);
+                        node.prescribe(across, speed.at(time) * direction[axis], index, clamped);
                     }
                 }
             }

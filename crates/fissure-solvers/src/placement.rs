@@ -14,8 +14,8 @@ const COLOURS: usize = 8;
 /// Tiles have 2^D colours, like a chessboard's two: the windows of tiles of one colour do not
 /// overlap. Particles are sorted by colour first, so that a pass can take one colour after another.
 ///
-/// Particles keep their order while none leaves its tile, so sorting is stable in both senses and
-/// a restarted run, which sorts anew, finds the order it was saved in.
+/// Sorting is stable, and particles keep their order until one leaves the window of the tile it
+/// was sorted by (explicit solver) or that tile (quasi-static solver).
 #[derive(Debug)]
 pub struct Placement<const D: usize> {
     /// Tiles that hold nodes.
@@ -32,6 +32,8 @@ pub struct Placement<const D: usize> {
     keys: Vec<u64>,
     order: Vec<u32>,
     homes: Vec<[i32; D]>,
+    /// Whether `homes` were recalled from a checkpoint.
+    recalled: bool,
 }
 
 impl<const D: usize> Default for Placement<D> {
@@ -46,6 +48,7 @@ impl<const D: usize> Default for Placement<D> {
             keys: Vec::new(),
             order: Vec::new(),
             homes: Vec::new(),
+            recalled: false,
         }
     }
 }
@@ -79,13 +82,7 @@ impl<const D: usize> Placement<D> {
     /// # Errors
     /// A particle outside the grid, or columns that do not fit one another.
     pub fn update(&mut self, grid: &Grid<D>, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        self.homes.clear();
-        for (body, owner) in scene.bodies().iter().enumerate() {
-            for (index, x) in owner.motion().position.iter().enumerate() {
-                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
-                self.homes.push(tile_of(cell));
-            }
-        }
+        self.find_homes(grid, scene)?;
         self.tiles.rebuild(self.homes.iter().copied());
         self.runs.clear();
         self.colours.clear();
@@ -115,6 +112,45 @@ impl<const D: usize> Placement<D> {
         self.edits = Some(scene.edits());
         self.moved = false;
         Ok(())
+    }
+
+    /// The tile that every particle is sorted by: the one it is in, or the recalled one.
+    fn find_homes(&mut self, grid: &Grid<D>, scene: &Scene<D>) -> Result<(), SolveError> {
+        if std::mem::take(&mut self.recalled) && self.homes.len() == scene.particle_count() {
+            return Ok(());
+        }
+        self.homes.clear();
+        for (body, owner) in scene.bodies().iter().enumerate() {
+            for (index, x) in owner.motion().position.iter().enumerate() {
+                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
+                self.homes.push(tile_of(cell));
+            }
+        }
+        Ok(())
+    }
+
+    /// The tiles that the particles are sorted by, as `(particles, coordinates)` of each run: they
+    /// may have moved on since, and a restarted run is to sum in the same order.
+    pub(crate) fn memory(&self) -> Vec<f64> {
+        let mut memory = Vec::new();
+        for run in self.runs.iter().flatten() {
+            memory.push(run.len() as f64);
+            let coordinates = self.tiles.coordinates(run.tile as usize);
+            memory.extend(coordinates.map(f64::from));
+        }
+        memory
+    }
+
+    /// Takes back what [`memory`](Self::memory) gave, for the next [`update`](Self::update).
+    pub(crate) fn recall(&mut self, memory: &[f64]) {
+        self.homes.clear();
+        for run in memory.chunks_exact(1 + D) {
+            let home = std::array::from_fn(|axis| run[1 + axis] as i32);
+            let count = self.homes.len() + (run[0] as usize).min(Run::MAX);
+            self.homes.resize(count, home);
+        }
+        self.recalled = !self.homes.is_empty();
+        self.edits = None;
     }
 
     /// Runs of a body in the tiles of one colour: tiles whose windows do not overlap.

@@ -242,14 +242,14 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
-        let mass = &self.body.particles().mass;
+        let particles = self.body.particles();
         for run in self.runs {
             for index in run.start as usize..run.end as usize {
                 let stencil = self.transfers.stencil(self.body, self.tile, index);
                 let stencil = stencil.ok_or(index)?;
                 let value = stencil.gather::<L, false, false>(lanes, self.values).value;
                 let v = SVector::from_fn(|axis, _| value[axis]);
-                let gift = momentum_gift(mass[index], &v, None);
+                let gift = momentum_gift(particles.mass[index], &v, None);
                 stencil.scatter::<L, false, false>(lanes, &gift, self.window);
             }
         }

@@ -5,11 +5,20 @@
 //! prints the rows.
 
 pub mod framework;
+pub mod isoerror;
+pub mod law_table;
+pub mod laws;
+pub mod point;
 pub mod tensile_bar;
 
 use framework::Study;
 
 /// Every study of the binary, in the order of `--list`.
 pub fn studies() -> Vec<Box<dyn Study>> {
-    vec![Box::new(tensile_bar::TensileBar)]
+    vec![
+        Box::new(tensile_bar::TensileBar),
+        Box::new(point::PointStudy),
+        Box::new(law_table::LawTable),
+        Box::new(isoerror::Isoerror),
+    ]
 }

@@ -17,6 +17,9 @@ pub enum Error {
     /// A region could not be filled.
     #[error(transparent)]
     Seed(#[from] fissure_particles::SeedError),
+    /// A random field or its distribution was refused.
+    #[error(transparent)]
+    Field(#[from] fissure_particles::FieldError),
     /// A law refused its parameters or a deformation.
     #[error(transparent)]
     Law(#[from] fissure_materials::MaterialError),

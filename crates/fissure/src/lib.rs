@@ -62,9 +62,10 @@ pub mod prelude {
     pub use fissure_io::table::Table;
     pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
-        Axis, Biot, Control, Crack, Cracking, Decohesive, External, Hencky, Increment, Isotropic,
-        Material, MaterialError, NeoHookean, Normal, Path, PlaneStress, Point, Response, Sample,
-        Scale, Softening, check_parameter, contract, softening,
+        Axis, Biot, Control, Crack, Cracking, Decohesive, Entry, Event, EventKind, External,
+        Hencky, Increment, Isotropic, Material, MaterialError, NeoHookean, Normal, Path,
+        PlaneStress, Point, Response, Sample, Scale, Softening, SubSteps, check_parameter,
+        contract, softening,
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;
@@ -88,6 +89,8 @@ mod pages {
     mod concepts {}
     #[doc = include_str!("../../../docs/own-law.md")]
     mod own_law {}
+    #[doc = include_str!("../../../docs/strength-fields.md")]
+    mod strength_fields {}
     #[doc = include_str!("../../../docs/choose-a-solver.md")]
     mod choose_a_solver {}
 }

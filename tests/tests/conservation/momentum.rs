@@ -22,12 +22,14 @@ where
         (min[1], max[1]) = (y, y + 3.0 * H);
         Block::new(min, max)
     };
-    let left = 8.0 * H;
+    // Off the nodes: a node that a domain touches with less than 1e-16 of a mass feels no force, and
+    // what uGIMP lets it have, the root of that, would be missing.
+    let left = 8.03 * H;
     let mut up = SVector::<f64, D>::zeros();
     up[1] = 1.0;
     let pull = |t: f64| SVector::repeat(-50.0 * (1.0 + t));
     scene
-        .fill("left", rubber(), &block(left, 0.0), &Spacing(H / 2.0))
+        .fill("left", rubber(), &block(left, 0.03 * H), &Spacing(H / 2.0))
         .unwrap()
         .fill(
             "right",
@@ -45,18 +47,23 @@ where
             v
         })
         .unwrap();
-    if held(case) {
-        let foot = |x: &SVector<f64, D>| x[1] < 0.3 * H;
-        scene
-            .hold("foot", "left", foot, Hold::Component(up), Constant(0.0))
-            .unwrap();
-    }
+    // Two skew rollers where the foot meets the side.
+    let mut aslant = SVector::<f64, D>::zeros();
+    (aslant[0], aslant[1]) = (0.8, 0.6);
+    let foot = |x: &SVector<f64, D>| x[1] < 0.33 * H;
+    let corner = |x: &SVector<f64, D>| x[1] < 0.33 * H && x[0] < left + 0.3 * H;
     scene
-}
-
-/// FMPM filters held velocities, and the momentum which that takes is in no reaction.
-fn held(case: &Case) -> bool {
-    !matches!(case.transfer, Transfer::Fmpm { .. })
+        .hold("foot", "left", foot, Hold::Component(up), Constant(0.0))
+        .unwrap()
+        .hold(
+            "corner",
+            "left",
+            corner,
+            Hold::Component(aslant),
+            Constant(0.05),
+        )
+        .unwrap();
+    scene
 }
 
 /// Largest error of a step over `Σ m|v|`, in 60 steps.
@@ -76,7 +83,7 @@ where
         compensated(bodies.flat_map(|body| body.particles().mass.iter().copied()))
     };
     let mass = masses(&scene);
-    let mut worst = 0.0;
+    let (mut worst, mut held) = (0.0, 0.0_f64);
     for _ in 0..60 {
         let (before, time) = (momentum(&scene), scene.time());
         let report = solver.step(&mut scene, f64::INFINITY).unwrap();
@@ -85,6 +92,7 @@ where
         for reaction in &report.reactions {
             force += reaction;
         }
+        held = held.max(scene.reaction("foot").map_or(0.0, |force| force[1].abs()));
         let change = momentum(&scene) - before;
         // Hoops push outwards without a counterpart: an axisymmetric scene keeps its axis alone.
         let axes = if case.space == Space::Axisymmetric {
@@ -103,11 +111,7 @@ where
         (masses(&scene) / mass - 1.0).abs() <= 1e-15,
         "{case:?}: mass changed"
     );
-    let reaction = scene.reaction("foot").map_or(f64::NAN, |force| force[1]);
-    assert!(
-        reaction.abs() > 1.0 || !held(case),
-        "{case:?}: {reaction} N"
-    );
+    assert!(held > 1e3, "{case:?}: the foot is held by {held} N");
     worst
 }
 
@@ -115,13 +119,16 @@ fn conserved<const D: usize>(space: Space)
 where
     Table: Build<D>,
 {
+    let mut largest = 0.0_f64;
     for case in cases(space) {
         let exact = worst::<D>(&case, ExplicitSettings::default().mass_cutoff);
         assert!(exact <= 1e-13, "{case:?}: {exact:e} in a step");
-        // What nodes below a cut-off do not feel is lost.
+        // What nodes below a cut-off do not feel is lost: the root of it with uGIMP.
         let cut = worst::<D>(&case, 1e-9);
-        assert!(cut <= 1e-7, "{case:?}: {cut:e} in a step with the cut-off");
+        assert!(cut <= 1e-6, "{case:?}: {cut:e} in a step with the cut-off");
+        largest = largest.max(exact);
     }
+    println!("{space:?}: {largest:.1e} of the momenta in a step at most");
 }
 
 #[test]

@@ -257,9 +257,17 @@ fn x12_numbers_that_are_not_finite_are_refused_with_their_particle() {
 #[test]
 fn numbers_in_scene_grid_and_settings_are_refused_by_name() {
     let mut scene = scene();
+    scene
+        .set_velocity("block", |_| Vector2::new(1.0, 2.0))
+        .unwrap();
+    let before = scene.save().unwrap();
+    // Most velocities are good; that of one corner is not.
     let velocity = scene
-        .set_velocity("block", |_| Vector2::new(f64::NAN, 0.0))
+        .set_velocity("block", |x| {
+            Vector2::new(3.0, if x.min() > 0.45 { f64::NAN } else { 4.0 })
+        })
         .err();
+    assert!(scene.save().unwrap() == before, "half of a change was made");
     assert!(matches!(
         velocity,
         Some(SceneError::Parameter {

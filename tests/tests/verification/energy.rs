@@ -105,12 +105,15 @@ where
     // A damped wave that reaches the cell size dies at its own rate, whatever the step: those
     // fall slower than the first order at first. Small imbalances are differences of two signs.
     let mean = 0.5 * (orders[0] + orders[1]);
-    if case.update == StressUpdate::First {
+    let flip = case.transfer == Transfer::Flip { pic: 0.0 };
+    if flip && case.update == StressUpdate::First {
         assert!(
             orders.iter().all(|order| *order >= 0.95),
             "{case:?}: {orders:?}"
         );
-    } else if imbalance[0].abs() > 0.03 {
+    } else if (flip || case.update == StressUpdate::Last) && imbalance[0].abs() > 0.03 {
+        // With the other updates the particles' velocities strain, and what a dissipative transfer
+        // took from them since the nodes did their work is in the imbalance at any step.
         assert!(mean >= 0.6, "{case:?}: {orders:?}");
     }
 }

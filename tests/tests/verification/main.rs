@@ -18,5 +18,6 @@ mod energy;
 mod gravity;
 mod patch;
 mod rigid_motion;
+mod rollers;
 mod sections;
 mod turned_point;

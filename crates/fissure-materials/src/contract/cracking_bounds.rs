@@ -29,7 +29,8 @@ pub(super) fn consistency<M: Cracking>() -> Property<M> {
             let tolerance = round_off(subject, case.max_strain());
             let mut before = law.irreversible(&law.initial());
             for (response, f) in responses.iter().zip(&gradients[1..]) {
-                let stress = law.driving_stress(f, &response.stress)?;
+                let f = subject.whole(f, &response.state);
+                let stress = law.driving_stress(&f, &response.stress)?;
                 let now = law.irreversible(&response.state);
                 match law.cracks(&response.state).as_slice() {
                     [] => gauge.check(
@@ -116,7 +117,8 @@ pub(super) fn traction_bound<M: Cracking>() -> Property<M> {
             let responses = subject.drive(&gradients, &case.band, &Scale::default())?;
             let tolerance = round_off(subject, case.max_strain());
             for (response, f) in responses.iter().zip(&gradients[1..]) {
-                let stress = subject.law.driving_stress(f, &response.stress)?;
+                let f = subject.whole(f, &response.state);
+                let stress = subject.law.driving_stress(&f, &response.stress)?;
                 for crack in subject.law.cracks(&response.state) {
                     gauge.check(
                         traction(subject, &stress, &crack) - crack.strength_ratio,

@@ -104,7 +104,8 @@ fn started<M: Cracking>(
     let Some(undamaged) = subject.undamaged(f, &case.band) else {
         return Ok(());
     };
-    let trial = law.driving_stress(f, &undamaged.stress)?;
+    let f = subject.whole(f, &undamaged.state);
+    let trial = law.driving_stress(&f, &undamaged.stress)?;
     let found = law.initiation(&trial, &scale);
     let responses = subject.drive(&gradients, &case.band, &scale)?;
     let cracks = responses.last().map(|r| law.cracks(&r.state));

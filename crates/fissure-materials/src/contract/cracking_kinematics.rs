@@ -4,7 +4,7 @@ use fissure_tensor::{Matrix3, Sym, Vector3};
 
 use super::{Case, Random, gauge::Gauge, runner::Property, subject::Subject};
 use super::{case::gradient, continuity::largest_jump};
-use crate::{Biot, Cracking, Increment, MaterialError, Scale};
+use crate::{Biot, Cracking, Increment, MaterialError, Response, Scale};
 
 /// The strain that the elastic law does not explain, `E − C⁻¹:T`, has only the components `nn`,
 /// `nt` and `np` of a crack, and `nn` is opening over width; without a crack there is none.
@@ -29,22 +29,23 @@ fn judge_crack_strain<M: Cracking>(
 ) -> Result<Gauge, MaterialError> {
     let mut gauge = Gauge::default();
     let law = subject.law;
-    let Some(compliance) = subject.modulus.0.try_inverse() else {
+    let Some(compliance) = subject.compliance() else {
         return Ok(gauge);
     };
-    let compliance = fissure_tensor::Tangent(compliance);
     let gradients = case.gradients();
     let responses = subject.drive(&gradients, &case.band, &Scale::default())?;
     for (response, f) in responses.iter().zip(&gradients[1..]) {
         let Some(undamaged) = subject.undamaged(f, &case.band) else {
             return Ok(gauge);
         };
-        let strain = Biot::new(f)?.strain();
-        let inelastic = |cauchy: &Sym| -> Result<Sym, MaterialError> {
-            Ok(strain - compliance.apply(&law.driving_stress(f, cauchy)?))
+        let f = |state: &M::State| subject.whole(f, state);
+        let strain = subject.controlled(&Biot::new(&f(&response.state))?.strain());
+        let inelastic = |answer: &Response<M::State>| -> Result<Sym, MaterialError> {
+            let stress = law.driving_stress(&f(&answer.state), &answer.stress)?;
+            Ok(strain - compliance.apply(&stress))
         };
-        let crack_strain = inelastic(&response.stress)?;
-        let bound = 2.0 * inelastic(&undamaged.stress)?.norm() + 1e-10 * strain.norm() + 1e-13;
+        let crack_strain = inelastic(response)?;
+        let bound = 2.0 * inelastic(&undamaged)?.norm() + 1e-10 * strain.norm() + 1e-13;
         match law.cracks(&response.state).as_slice() {
             [] => gauge.check(crack_strain.norm(), bound, "crack strain without a crack"),
             [crack] => {
@@ -120,19 +121,19 @@ fn judge_closure<M: Cracking>(subject: &Subject<M>, case: &Case) -> Result<Gauge
     }
     let increment = subject.increment(*from, *end, &case.band);
     let shut = law.update(&increment, &open.state)?;
-    let traction = |cauchy: &Sym| -> Result<f64, MaterialError> {
-        Ok(law
-            .driving_stress(end, cauchy)?
-            .normal_component(&crack.normal))
+    let traction = |answer: &Response<M::State>| -> Result<f64, MaterialError> {
+        let f = subject.whole(end, &answer.state);
+        let stress = law.driving_stress(&f, &answer.stress)?;
+        Ok(stress.normal_component(&crack.normal))
     };
-    let expected = traction(&undamaged.stress)?;
+    let expected = traction(&undamaged)?;
     let strain = points.last().map_or(0.0, |(_, strain)| strain.norm());
     if expected > -1e-6 * subject.stiffness * strain {
         return Ok(gauge);
     }
     let bound = subject.stiffness * (1e-10 * strain + 1e-13);
     gauge.check(
-        (traction(&shut.stress)? - expected).abs(),
+        (traction(&shut)? - expected).abs(),
         bound,
         "a shut crack does not carry the undamaged traction, Pa",
     );

@@ -58,7 +58,8 @@ fn ledger<M: Material>(
             let mut increment = subject.increment(f_old, f_new, &case.band);
             increment.dt /= substeps as f64;
             let response = subject.law.update(&increment, &state)?;
-            let next = conjugate(&f_new, &point.0, &response.stress);
+            let whole = subject.whole(&f_new, &response.state);
+            let next = conjugate(&whole, &point.0, &response.stress);
             let work_here = (stress + next).dot(&strain) * 0.5;
             let next_change = next - stress;
             // The first second difference of a step spans its corner and is as good a scale.

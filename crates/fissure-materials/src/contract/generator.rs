@@ -6,18 +6,29 @@ use fissure_tensor::{Band, Matrix3, Sym, Vector3, rotation};
 
 /// SplitMix64 [Steele, Lea, Flood 2014] with the distributions the battery draws from.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random {
+    state: u64,
+    plane: bool,
+}
 
 impl Random {
     /// The stream of a seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self {
+            state: seed,
+            plane: false,
+        }
+    }
+
+    /// Whether directions and strains are drawn in the xy plane, and rotations about z.
+    pub fn in_plane(self, plane: bool) -> Self {
+        Self { plane, ..self }
     }
 
     /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ (z >> 31)
@@ -44,17 +55,25 @@ impl Random {
         low + (self.bits() % (high - low + 1) as u64) as usize
     }
 
-    /// A direction, uniform on the sphere.
+    /// A direction, uniform on the sphere, or on the circle in the plane.
     pub fn direction(&mut self) -> Vector3<f64> {
+        if self.plane {
+            let (s, c) = self.uniform(0.0, TAU).sin_cos();
+            return Vector3::new(c, s, 0.0);
+        }
         let z = self.uniform(-1.0, 1.0);
         let (s, c) = self.uniform(0.0, TAU).sin_cos();
         let r = (1.0 - z * z).sqrt();
         Vector3::new(r * c, r * s, z)
     }
 
-    /// A rotation vector of any direction, up to half a turn.
+    /// A rotation vector of any direction, or along z in the plane, up to half a turn.
     pub fn turn(&mut self) -> Vector3<f64> {
-        let direction = self.direction();
+        let direction = if self.plane {
+            Vector3::z() * if self.chance(0.5) { 1.0 } else { -1.0 }
+        } else {
+            self.direction()
+        };
         direction * self.uniform(0.0, PI)
     }
 
@@ -69,6 +88,9 @@ impl Random {
     /// axes along the coordinates, where codes branch.
     pub fn strain_direction(&mut self, special: bool) -> Sym {
         let special = special && self.chance(0.2);
+        if self.plane {
+            return self.plane_strain_direction(special);
+        }
         let lode = if special {
             PI / 3.0 * self.integer(0, 5) as f64
         } else {
@@ -80,6 +102,25 @@ impl Random {
         let [a, b, c] = [0.0, 1.0, 2.0]
             .map(|i: f64| mean / 3.0_f64.sqrt() + deviator * (lode - i * TAU / 3.0).cos());
         let principal = Sym::diagonal(a, b, c);
+        if special && self.chance(0.5) {
+            principal
+        } else {
+            principal.congruence(&self.rotation())
+        }
+    }
+
+    /// As [`strain_direction`](Self::strain_direction), with the components xx, yy and xy only.
+    fn plane_strain_direction(&mut self, special: bool) -> Sym {
+        let angle = if special {
+            // Equal, uniaxial, and pure shear.
+            0.25 * PI * self.integer(0, 7) as f64
+        } else {
+            self.uniform(0.0, TAU)
+        };
+        let (a, b) = angle.sin_cos();
+        let tension = if self.chance(0.75) { 1.0 } else { -1.0 };
+        let sign = if a + b < 0.0 { -tension } else { tension };
+        let principal = Sym::diagonal(a * sign, b * sign, 0.0);
         if special && self.chance(0.5) {
             principal
         } else {
@@ -118,6 +159,22 @@ mod tests {
             tension += usize::from(strain.trace() > 0.0);
         }
         assert!((650..850).contains(&tension), "{tension}");
+    }
+
+    #[test]
+    fn plane_draws_stay_in_the_plane() {
+        let mut random = Random::new(7).in_plane(true);
+        let mut tension = 0;
+        for _ in 0..1000 {
+            let strain = random.strain_direction(true);
+            assert!((strain.norm() - 1.0).abs() < 1e-12);
+            assert_eq!(strain.mandel[2..5], [0.0; 3]);
+            assert_eq!(random.direction().z, 0.0);
+            let turn = random.turn();
+            assert_eq!((turn.x, turn.y), (0.0, 0.0));
+            tension += usize::from(strain.trace() > 0.0);
+        }
+        assert!((600..850).contains(&tension), "{tension}");
     }
 
     #[test]

@@ -11,7 +11,8 @@
 //! Every property states its qualification and its bound at the function that builds it. Inputs
 //! come from a seeded generator: strains log-uniform between round-off and beyond failure, all
 //! Lode angles and axes, histories of loading, unloading and turning. What fails is shrunk by
-//! halving to a case small enough to paste into a test. A property that nothing exercised is a
+//! halving to a case small enough to paste into a test, and the message says which call of
+//! [`Contract::replay`] finds it again. A property that nothing exercised is a
 //! failure, not a pass.
 
 mod case;
@@ -25,9 +26,11 @@ mod dissipation;
 mod frames;
 mod gauge;
 mod generator;
+mod replay;
 mod report;
 mod runner;
 mod shrink;
+mod softening;
 #[cfg(feature = "proptest")]
 pub mod strategies;
 mod subject;
@@ -41,7 +44,10 @@ use fissure_tensor::Band;
 
 pub use case::{Case, Step};
 pub use generator::Random;
+pub use replay::Replay;
 pub use report::{Summary, Tally, Violation};
+pub use softening::{SofteningFault, check_softening};
+pub use tangent::tangent_error;
 
 use crate::{Cracking, Material, MaterialError, Scale};
 use runner::{Property, run};
@@ -97,7 +103,7 @@ impl Contract {
     /// # Errors
     /// The first property that does not hold, with the smallest case found.
     pub fn check<M: Material>(&self, law: &M) -> Result<Summary, Violation> {
-        let subject = Subject::new(law, self).map_err(|error| self.refused(&error))?;
+        let subject = Subject::new(law, self).map_err(|error| self.refused(&error, false))?;
         let mut summary = Summary::default();
         self.run_all(&general(), &subject, &mut summary)?;
         Ok(summary)
@@ -110,7 +116,7 @@ impl Contract {
     /// The first property that does not hold, with the smallest case found; or that no crack
     /// softened.
     pub fn check_cracking<M: Cracking>(&self, law: &M) -> Result<Summary, Violation> {
-        let subject = Subject::cracking(law, self).map_err(|error| self.refused(&error))?;
+        let subject = Subject::cracking(law, self).map_err(|error| self.refused(&error, true))?;
         let mut summary = Summary::default();
         self.run_all(&general(), &subject, &mut summary)?;
         self.run_all(&cracking(), &subject, &mut summary)?;
@@ -121,7 +127,7 @@ impl Contract {
                  opening: strength or critical opening are not those of the law",
                 summary.softened, summary.failed
             );
-            return Err(self.without_case("P7 irreversibility", reason));
+            return Err(self.without_case("P7 irreversibility", reason, true));
         }
         summary.tallies.push(Tally {
             property: "P17 order of cracks",
@@ -146,15 +152,21 @@ impl Contract {
     }
 
     /// The law refuses its own parameters, the band asked for, or a small strain.
-    fn refused(&self, error: &MaterialError) -> Violation {
+    fn refused(&self, error: &MaterialError, cracking: bool) -> Violation {
         self.without_case(
             "P24 validation",
             format!("the law refuses to start: {error}"),
+            cracking,
         )
     }
 
     /// A violation that needs no input.
-    fn without_case(&self, property: &'static str, explanation: String) -> Violation {
+    fn without_case(
+        &self,
+        property: &'static str,
+        explanation: String,
+        cracking: bool,
+    ) -> Violation {
         let band = self.band.unwrap_or(Band::Uniform(1.0));
         Violation {
             property,
@@ -162,8 +174,11 @@ impl Contract {
             bound: 0.0,
             case: Box::new(Case::straight([], band)),
             explanation,
-            seed: self.seed,
-            sample: 0,
+            replay: Replay {
+                contract: self.clone(),
+                cracking,
+                sample: None,
+            },
         }
     }
 }

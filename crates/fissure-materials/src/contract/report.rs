@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::Case;
+use super::{Case, Replay};
 
 /// How often one property was exercised and how close it came to its bound.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +75,8 @@ impl fmt::Display for Summary {
 #[error(
     "{property} does not hold: {explanation}\n\
      measured {measured:e}, bound {bound:e}\n\
-     smallest failing case (seed {seed}, sample {sample}):\n{case}"
+     smallest failing case (seed {}):\n{case}{}",
+    replay.contract.seed, self.how_to_replay()
 )]
 pub struct Violation {
     /// Name of the property, as in "P9 objectivity".
@@ -88,8 +89,6 @@ pub struct Violation {
     pub case: Box<Case>,
     /// What was compared and what usually is wrong.
     pub explanation: String,
-    /// Seed of the run: [`Contract::seed`](super::Contract::seed) reproduces it.
-    pub seed: u64,
-    /// Which sample of the property failed.
-    pub sample: usize,
+    /// How to find it again.
+    pub replay: Replay,
 }

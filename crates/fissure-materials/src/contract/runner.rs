@@ -1,7 +1,8 @@
 //! Runs properties over their samples, counts, and shrinks what fails.
 
-use super::{Case, Contract, Random, Summary, Tally, Violation, gauge::Gauge, shrink::shrink};
+use super::{Case, Contract, Random, Replay, Summary, Tally, Violation};
 use super::{gauge::Failure, subject::Subject};
+use super::{gauge::Gauge, shrink::shrink};
 use crate::{Material, MaterialError};
 
 /// One property: how to draw a case and how to judge it.
@@ -27,37 +28,16 @@ pub(super) fn run<M: Material>(
     contract: &Contract,
     summary: &mut Summary,
 ) -> Result<(), Violation> {
-    let mut tally = Tally {
-        property: property.name,
-        exercised: 0,
-        skipped: 0,
-        refused: 0,
-        worst: 0.0,
-        note: None,
-    };
-    // A stream per property, so that adding one does not change the others' samples.
-    let mut random = Random::new(contract.seed ^ stream(property.name));
+    let mut tally = tally(property);
+    let mut random = stream(property, contract);
     let samples = ((contract.samples as f64 * property.share).ceil() as usize).max(1);
     let mut last = Case::straight([], subject.rest().band);
     for sample in 0..samples {
-        let case = (property.draw)(subject, &mut random);
-        match (property.judge)(subject, &case) {
-            Err(_) => tally.refused += 1,
-            Ok(gauge) if gauge.count == 0 => tally.skipped += 1,
-            Ok(gauge) => {
-                if let Some(failure) = gauge.failure {
-                    let first = (case, failure);
-                    return Err(violation(property, subject, contract, first, sample));
-                }
-                tally.exercised += 1;
-                tally.worst = tally.worst.max(gauge.worst);
-                summary.softened += usize::from(gauge.softened);
-                summary.failed += usize::from(gauge.failed);
-                summary.step_error = summary.step_error.max(gauge.step_error);
-                summary.asymmetry = summary.asymmetry.max(gauge.asymmetry);
-            }
-        }
-        last = case;
+        last = (property.draw)(subject, &mut random);
+        let (case, sample) = (last.clone(), Some(sample));
+        judge(
+            property, subject, contract, case, sample, &mut tally, summary,
+        )?;
     }
     if property.must_apply && tally.exercised == 0 {
         return Err(Violation {
@@ -71,20 +51,82 @@ pub(super) fn run<M: Material>(
                  found; set Contract::strain_scale",
                 tally.skipped, tally.refused
             ),
-            seed: contract.seed,
-            sample: samples,
+            replay: Replay {
+                contract: contract.clone(),
+                cracking: subject.cracking,
+                sample: None,
+            },
         });
     }
     summary.tallies.push(tally);
     Ok(())
 }
 
-fn violation<M: Material>(
+/// A count that has not started.
+pub(super) fn tally<M>(property: &Property<M>) -> Tally {
+    Tally {
+        property: property.name,
+        exercised: 0,
+        skipped: 0,
+        refused: 0,
+        worst: 0.0,
+        note: None,
+    }
+}
+
+/// The case that [`run`] draws for a sample.
+pub(super) fn nth_case<M: Material>(
     property: &Property<M>,
     subject: &Subject<M>,
     contract: &Contract,
-    (case, first): (Case, Failure),
     sample: usize,
+) -> Case {
+    // Every draw depends on those before; they cost next to nothing.
+    let mut random = stream(property, contract);
+    for _ in 0..sample {
+        (property.draw)(subject, &mut random);
+    }
+    (property.draw)(subject, &mut random)
+}
+
+/// Judges one case, counts it, and shrinks it if it fails.
+pub(super) fn judge<M: Material>(
+    property: &Property<M>,
+    subject: &Subject<M>,
+    contract: &Contract,
+    case: Case,
+    sample: Option<usize>,
+    tally: &mut Tally,
+    summary: &mut Summary,
+) -> Result<(), Violation> {
+    match (property.judge)(subject, &case) {
+        Err(_) => tally.refused += 1,
+        Ok(gauge) if gauge.count == 0 => tally.skipped += 1,
+        Ok(gauge) => {
+            if let Some(failure) = gauge.failure {
+                let replay = Replay {
+                    contract: contract.clone(),
+                    cracking: subject.cracking,
+                    sample,
+                };
+                return Err(violation(property, subject, (case, failure), replay));
+            }
+            tally.exercised += 1;
+            tally.worst = tally.worst.max(gauge.worst);
+            summary.softened += usize::from(gauge.softened);
+            summary.failed += usize::from(gauge.failed);
+            summary.step_error = summary.step_error.max(gauge.step_error);
+            summary.asymmetry = summary.asymmetry.max(gauge.asymmetry);
+        }
+    }
+    Ok(())
+}
+
+fn violation<M: Material>(
+    property: &Property<M>,
+    subject: &Subject<M>,
+    (case, first): (Case, Failure),
+    replay: Replay,
 ) -> Violation {
     let failure = |case: &Case| (property.judge)(subject, case).ok()?.failure;
     let case = shrink(case, |case| failure(case).is_some());
@@ -103,14 +145,18 @@ fn violation<M: Material>(
         bound,
         case: Box::new(case),
         explanation: format!("{what}. {}", property.hint),
-        seed: contract.seed,
-        sample,
+        replay,
     }
 }
 
-/// FNV-1a of a name.
-fn stream(name: &str) -> u64 {
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+/// A stream per property, so that adding one does not change the others' samples.
+fn stream<M: Material>(property: &Property<M>, contract: &Contract) -> Random {
+    // FNV-1a of the name.
+    let name = property
+        .name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+    Random::new(contract.seed ^ name).in_plane(M::PLANE)
 }

@@ -3,7 +3,7 @@
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 
 use super::{Case, Contract, Random, case::Step};
-use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::material::{DIFFERENCE_STEP, columns, completed, difference_tangent};
 use crate::{Cracking, External, Increment, Material, MaterialError, Response, Scale};
 
 /// A law and what the generator has to know of it.
@@ -11,6 +11,8 @@ pub(super) struct Subject<'a, M> {
     pub law: &'a M,
     /// Largest stress per strain of the virgin law, Pa.
     pub stiffness: f64,
+    /// Stress of the virgin law at rest, Pa; zero but for a law under pressure from the start.
+    pub rest_stress: Sym,
     /// Tangent of the virgin law at rest.
     pub modulus: Tangent,
     /// Strain at which something happens: strength over stiffness, or the limit of linearity.
@@ -21,6 +23,8 @@ pub(super) struct Subject<'a, M> {
     pub opening: f64,
     /// Widest band to draw.
     pub width: f64,
+    /// Whether the scales are those that a law that cracks states.
+    pub cracking: bool,
     /// The band asked for, if one was.
     pub band: Option<Band>,
     /// Sub-steps of the isoerror property.
@@ -35,11 +39,13 @@ impl<'a, M: Material> Subject<'a, M> {
         let mut subject = Self {
             law,
             stiffness: 0.0,
+            rest_stress: Sym::ZERO,
             modulus: Tangent::zero(),
             natural: contract.strain_scale.unwrap_or(reach),
             reach,
             opening: 0.0,
             width: widest_band(law),
+            cracking: false,
             band: contract.band,
             isoerror_steps: contract.step_error_steps,
         };
@@ -47,11 +53,12 @@ impl<'a, M: Material> Subject<'a, M> {
             law.check_band(band, &Scale::default())?;
             subject.width = band.max_width();
         }
-        for axis in 0..3 {
-            let stress = subject.at_strain(&uniaxial(axis, 1e-8))?.stress;
+        let rest = subject.rest();
+        subject.rest_stress = law.update(&rest, &law.initial())?.stress;
+        for &axis in normals::<M>() {
+            let stress = subject.at_strain(&uniaxial(axis, 1e-8))?.stress - subject.rest_stress;
             subject.stiffness = subject.stiffness.max(stress.max_abs() / 1e-8);
         }
-        let rest = subject.rest();
         subject.modulus = law.tangent(&rest, &law.initial())?;
         if contract.strain_scale.is_none() {
             subject.natural = subject.limit_of_linearity();
@@ -63,16 +70,18 @@ impl<'a, M: Material> Subject<'a, M> {
 
     /// Doubles strains along the axes and in all directions until the response is not linear.
     fn limit_of_linearity(&self) -> f64 {
-        let directions = [uniaxial(0, 1.0), uniaxial(1, 1.0), uniaxial(2, 1.0)];
-        let directions = directions.into_iter().chain([Sym::IDENTITY]);
+        let axes = normals::<M>().iter().map(|axis| uniaxial(*axis, 1.0));
+        let all = axes.clone().fold(Sym::ZERO, |sum, axis| sum + axis);
+        let directions = axes.chain([all]);
         let mut smallest = self.reach;
         for direction in directions {
             let mut size = 1e-9;
             while size < smallest {
                 let strain = direction * size;
                 let linear = self.at_strain(&strain).is_ok_and(|response| {
-                    let difference = (response.stress - self.modulus.apply(&strain)).max_abs();
-                    response.state == self.law.initial()
+                    let difference = (response.stress - self.linear(&strain)).max_abs();
+                    // The stretch out of the plane is a state that moves from the first strain on.
+                    (M::PLANE || response.state == self.law.initial())
                         && response.dissipated == 0.0
                         && difference <= 0.1 * self.stiffness * size
                 });
@@ -83,6 +92,14 @@ impl<'a, M: Material> Subject<'a, M> {
             }
         }
         smallest
+    }
+
+    /// Cauchy stress of a symmetric strain from rest, to first order in it.
+    fn linear(&self, strain: &Sym) -> Sym {
+        let (rest, convected) = (self.rest_stress, strain.to_matrix());
+        self.modulus.apply(strain)
+            + rest * (1.0 - strain.trace())
+            + Sym::from_matrix(&(convected * rest.to_matrix())) * 2.0
     }
 
     /// The zero increment at rest.
@@ -129,6 +146,34 @@ impl<'a, M: Material> Subject<'a, M> {
             responses.push(response);
         }
         Ok(responses)
+    }
+
+    /// The deformation gradient with the stretch that a law in plane stress has found.
+    pub fn whole(&self, f: &Matrix3<f64>, state: &M::State) -> Matrix3<f64> {
+        completed(self.law, f, state)
+    }
+
+    /// The strain without the components that a law in plane stress determines itself.
+    pub fn controlled(&self, strain: &Sym) -> Sym {
+        let mut controlled = Sym::ZERO;
+        for &i in columns::<M>() {
+            controlled.mandel[i] = strain.mandel[i];
+        }
+        controlled
+    }
+
+    /// The inverse of the virgin tangent on the components that the law can be strained by.
+    pub fn compliance(&self) -> Option<Tangent> {
+        let mut matrix = self.modulus.0;
+        let fixed = |i: &usize| !columns::<M>().contains(i);
+        for i in (0..6).filter(fixed) {
+            matrix[(i, i)] = 1.0;
+        }
+        let mut inverse = matrix.try_inverse()?;
+        for i in (0..6).filter(fixed) {
+            inverse[(i, i)] = 0.0;
+        }
+        Some(Tangent(inverse))
     }
 
     /// The increment and the old state of the last step of a case; `None` if it has no step.
@@ -226,6 +271,7 @@ impl<'a, M: Cracking> Subject<'a, M> {
     /// As [`new`](Self::new), with the scales that a law that cracks states itself.
     pub fn cracking(law: &'a M, contract: &Contract) -> Result<Self, MaterialError> {
         let mut subject = Self::new(law, contract)?;
+        subject.cracking = true;
         let scale = Scale::default();
         let strength = law.strength(&scale);
         if contract.strain_scale.is_none() {
@@ -291,6 +337,11 @@ impl<'a, M: Cracking> Subject<'a, M> {
         }
         Case::straight(strains, band)
     }
+}
+
+/// The axes along which a law can be strained.
+fn normals<M: Material>() -> &'static [usize] {
+    if M::PLANE { &[0, 1] } else { &[0, 1, 2] }
 }
 
 fn uniaxial(axis: usize, strain: f64) -> Sym {

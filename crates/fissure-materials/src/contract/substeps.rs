@@ -6,9 +6,11 @@ use super::{Case, gauge::Gauge, runner::Property, subject::Subject};
 use crate::{Increment, Material, MaterialError};
 
 /// A proportional path from rest in 1, 2, 4, … 64 steps converges: either nothing changes, or the
-/// last change is at most 0.6 of the largest among the first three (0.6 and not 0.5, since a
-/// kink's place within a step varies). A rate-independent law gives the same bits for twice the
-/// time. Round-off allowed: `1e-9` of stiffness times strain plus `1e-13` of the stiffness.
+/// last change is at most 0.6 of the largest before the last three (0.6 and not 0.5, since a
+/// kink's place within a step varies). Where that fails 1024 steps decide: a law that bends near
+/// the end of the path has nothing to resolve before. A rate-independent law gives the same bits
+/// for twice the time. Round-off allowed: `1e-9` of stiffness times strain plus `1e-13` of the
+/// stiffness.
 pub(super) fn convergence<M: Material>() -> Property<M> {
     Property {
         name: "P12 sub-step convergence",
@@ -27,21 +29,15 @@ pub(super) fn convergence<M: Material>() -> Property<M> {
             let strain = step.strain;
             let whole = subject.increment(Matrix3::identity(), end(&strain), &case.band);
             let virgin = subject.law.initial();
-            let mut stresses = Vec::new();
-            for power in 0..=6 {
-                stresses.push(divided(subject, &whole, &virgin, 1 << power)?);
-            }
-            let changes: Vec<f64> = stresses
-                .windows(2)
-                .map(|pair| (pair[1] - pair[0]).max_abs())
-                .collect();
-            let first = changes.iter().take(3).copied().fold(0.0, f64::max);
-            let last = changes.last().copied().unwrap_or(0.0);
             let round_off = subject.stiffness * (1e-9 * strain.norm() + 1e-13);
+            let (mut last, mut bound) = settling(subject, &whole, 6)?;
+            if !(last <= bound + round_off) {
+                (last, bound) = settling(subject, &whole, 10)?;
+            }
             gauge.check(
                 last,
-                0.6 * first + round_off,
-                "64 steps against 32 differ as much as few steps do, Pa",
+                bound + round_off,
+                "twice the steps change as much as few steps do, Pa",
             );
             if !M::RATE_DEPENDENT {
                 let slow = Increment { dt: 2.0, ..whole };
@@ -53,6 +49,24 @@ pub(super) fn convergence<M: Material>() -> Property<M> {
         },
         must_apply: true,
     }
+}
+
+/// The change of stress from `2^(powers − 1)` to `2^powers` steps, and what it may be by the changes
+/// before.
+fn settling<M: Material>(
+    subject: &Subject<M>,
+    whole: &Increment,
+    powers: usize,
+) -> Result<(f64, f64), MaterialError> {
+    let virgin = subject.law.initial();
+    let mut stresses = Vec::new();
+    for power in 0..=powers {
+        stresses.push(divided(subject, whole, &virgin, 1 << power)?);
+    }
+    let changes = stresses.windows(2).map(|two| (two[1] - two[0]).max_abs());
+    let changes: Vec<f64> = changes.collect();
+    let largest = changes[..powers - 3].iter().copied().fold(0.0, f64::max);
+    Ok((changes[powers - 1], 0.6 * largest))
 }
 
 /// One step against many (1000 by default) over increments `(Δε_nn, Δε_nt)` of a grid over ±5

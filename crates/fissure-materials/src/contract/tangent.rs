@@ -1,9 +1,10 @@
 //! P3: the tangent is the derivative of the update.
 
-use fissure_tensor::{Matrix3, Sym};
+use fissure_tensor::{Matrix3, Sym, Tangent};
 
 use super::{Case, gauge::Gauge, runner::Property, subject::Subject};
-use crate::{Material, MaterialError};
+use crate::material::{columns, completed};
+use crate::{Increment, Material, MaterialError, Response};
 
 /// Difference steps tried, over the natural strain; a short one resolves sharp bends, a long one
 /// keeps round-off small.
@@ -44,31 +45,13 @@ fn judge<M: Material>(subject: &Subject<M>, case: &Case) -> Result<Gauge, Materi
     if subject.is_default_tangent(&increment, &old, &tangent) {
         return Ok(gauge);
     }
-    let jacobian = increment.jacobian();
-    let kirchhoff = |d: &Sym, size: f64| -> Result<Sym, MaterialError> {
-        let f = (Matrix3::identity() + d.to_matrix() * size) * increment.f_new;
-        let response = subject.law.update(&increment.with_end(f), &old)?;
-        Ok(response.stress * f.determinant())
-    };
-    let here = alone.stress * jacobian;
-    for (column, what) in COLUMNS.into_iter().enumerate() {
-        let mut d = Sym::ZERO;
-        d.mandel[column] = 1.0;
-        let convected = Sym::from_matrix(&(d.to_matrix() * alone.stress.to_matrix())) * 2.0;
-        let claimed = (tangent.apply(&d) + convected) * jacobian;
-        let scale = subject.stiffness.max(claimed.max_abs());
+    for &column in columns::<M>() {
+        let slope = Slope::new(subject.law, &increment, &old, &tangent, &alone, column);
+        let scale = subject.stiffness.max(slope.claimed.max_abs());
         let mut best = (f64::INFINITY, 0.0);
         for step in STEPS {
             let h = step * subject.natural;
-            let (far, near) = (kirchhoff(&d, h)?, kirchhoff(&d, 0.5 * h)?);
-            let (far_back, near_back) = (kirchhoff(&d, -h)?, kirchhoff(&d, -0.5 * h)?);
-            let central = ((near - near_back) * 8.0 - (far - far_back)) / (6.0 * h);
-            let forward = (near * 4.0 - far - here * 3.0) / h;
-            let backward = (here * 3.0 + far_back - near_back * 4.0) / h;
-            let error = [central, forward, backward]
-                .map(|slope| (slope - claimed).max_abs())
-                .into_iter()
-                .fold(f64::INFINITY, f64::min);
+            let error = slope.error(h)?;
             let bound = scale * (1e-6 + 2e-14 / h);
             if best.1 == 0.0 || error / bound < best.0 / best.1 {
                 best = (error, bound);
@@ -77,9 +60,90 @@ fn judge<M: Material>(subject: &Subject<M>, case: &Case) -> Result<Gauge, Materi
                 break;
             }
         }
-        gauge.check(best.0, best.1, what);
+        gauge.check(best.0, best.1, COLUMNS[column]);
     }
     Ok(gauge)
+}
+
+/// Largest error of a column of the law's tangent against Richardson-extrapolated differences of
+/// its update, over the `stiffness` or the column, whichever is larger. Central differences count,
+/// or at a kink the better one-sided ones, with the best of `steps` (relative changes of `F`).
+///
+/// # Errors
+/// As [`Material::update`].
+pub fn tangent_error<M: Material>(
+    law: &M,
+    increment: &Increment,
+    old: &M::State,
+    stiffness: f64,
+    steps: &[f64],
+) -> Result<f64, MaterialError> {
+    let (here, tangent) = law.update_with_tangent(increment, old)?;
+    let mut largest: f64 = 0.0;
+    for &column in columns::<M>() {
+        let slope = Slope::new(law, increment, old, &tangent, &here, column);
+        let mut best = f64::INFINITY;
+        for &step in steps {
+            best = best.min(slope.error(step)?);
+        }
+        largest = largest.max(best / stiffness.max(slope.claimed.max_abs()));
+    }
+    Ok(largest)
+}
+
+/// How the Kirchhoff stress changes with one Mandel component of a change of `F`.
+struct Slope<'a, M: Material> {
+    law: &'a M,
+    increment: &'a Increment,
+    old: &'a M::State,
+    direction: Sym,
+    /// Kirchhoff stress, Pa.
+    here: Sym,
+    /// What the tangent says, Pa.
+    claimed: Sym,
+}
+
+impl<'a, M: Material> Slope<'a, M> {
+    fn new(
+        law: &'a M,
+        increment: &'a Increment,
+        old: &'a M::State,
+        tangent: &Tangent,
+        response: &Response<M::State>,
+        column: usize,
+    ) -> Self {
+        let mut direction = Sym::ZERO;
+        direction.mandel[column] = 1.0;
+        let jacobian = completed(law, &increment.f_new, &response.state).determinant();
+        let stress = response.stress;
+        let convected = Sym::from_matrix(&(direction.to_matrix() * stress.to_matrix())) * 2.0;
+        Self {
+            law,
+            increment,
+            old,
+            direction,
+            here: stress * jacobian,
+            claimed: (tangent.apply(&direction) + convected) * jacobian,
+        }
+    }
+
+    fn kirchhoff(&self, size: f64) -> Result<Sym, MaterialError> {
+        let change = Matrix3::identity() + self.direction.to_matrix() * size;
+        let f = change * self.increment.f_new;
+        let response = self.law.update(&self.increment.with_end(f), self.old)?;
+        Ok(response.stress * completed(self.law, &f, &response.state).determinant())
+    }
+
+    /// Smallest difference to the central, the forward and the backward quotient of step `h`, Pa.
+    fn error(&self, h: f64) -> Result<f64, MaterialError> {
+        let (far, near) = (self.kirchhoff(h)?, self.kirchhoff(0.5 * h)?);
+        let (far_back, near_back) = (self.kirchhoff(-h)?, self.kirchhoff(-0.5 * h)?);
+        let central = ((near - near_back) * 8.0 - (far - far_back)) / (6.0 * h);
+        let forward = (near * 4.0 - far - self.here * 3.0) / h;
+        let backward = (self.here * 3.0 + far_back - near_back * 4.0) / h;
+        let errors = [central, forward, backward].map(|slope| (slope - self.claimed).max_abs());
+        Ok(errors.into_iter().fold(f64::INFINITY, f64::min))
+    }
 }
 
 const COLUMNS: [&str; 6] = [

@@ -42,7 +42,7 @@ fn judge<M: Material>(subject: &Subject<M>, case: &super::Case) -> Result<Gauge,
     gauge.require(finite, "an accepted deformation gave a tangent not finite");
 
     let [entry, kind] = [case.exponent.rem_euclid(9), case.exponent / 9];
-    let bad = spoilt(&increment.f_new, entry as usize, kind);
+    let bad = spoilt(&increment.f_new, readable::<M>(entry as usize), kind);
     let bad = increment.with_end(bad);
     let accepted = law.update(&bad, &old).is_ok();
     gauge.require(
@@ -69,6 +69,12 @@ fn judge<M: Material>(subject: &Subject<M>, case: &super::Case) -> Result<Gauge,
     );
     gauge.require(speed.is_finite(), "the wave speed is not finite");
     Ok(gauge)
+}
+
+/// The entry itself, or one in the plane if the law reads no other.
+fn readable<M: Material>(entry: usize) -> usize {
+    const IN_PLANE: [usize; 4] = [0, 1, 3, 4];
+    if M::PLANE { IN_PLANE[entry % 4] } else { entry }
 }
 
 /// Makes a deformation gradient one that has to be refused.

@@ -22,34 +22,6 @@ fn in_plane(xx: f64, xy: f64, yx: f64, yy: f64) -> Matrix3<f64> {
     Matrix3::new(1.0 + xx, xy, 0.0, yx, 1.0 + yy, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Central differences of in-plane Kirchhoff stress with the Jacobian that holds the law's stretch.
-fn difference<M: Material>(
-    law: &M,
-    increment: &Increment,
-    old: &M::State,
-    step: f64,
-) -> Result<Tangent, MaterialError> {
-    let kirchhoff = |f: Matrix3<f64>| -> Result<(Sym, f64), MaterialError> {
-        let response = law.update(&increment.with_end(f), old)?;
-        let thickness = law.out_of_plane_stretch(&response.state).unwrap_or(1.0);
-        let jacobian = (f.m11 * f.m22 - f.m12 * f.m21) * thickness;
-        Ok((response.stress * jacobian, jacobian))
-    };
-    let (tau, jacobian) = kirchhoff(increment.f_new)?;
-    let mut tangent = Tangent::zero();
-    for column in [0, 1, 5] {
-        let mut d = Sym::ZERO;
-        d.mandel[column] = 1.0;
-        let end =
-            |sign: f64| (Matrix3::identity() + d.to_matrix() * (sign * step)) * increment.f_new;
-        let rate = (kirchhoff(end(1.0))?.0 - kirchhoff(end(-1.0))?.0) / (2.0 * step);
-        let convected = Sym::from_matrix(&(d.to_matrix() * tau.to_matrix())) * 2.0;
-        let image = (rate - convected) / jacobian;
-        tangent.0.set_column(column, &image.mandel.into());
-    }
-    Ok(tangent)
-}
-
 #[test]
 fn small_strain_moduli_are_those_of_plane_stress() -> Result<(), MaterialError> {
     let law = PlaneStress(ELASTIC);
@@ -120,7 +92,8 @@ fn check_step<M: Material>(
         inner.stress.zz().abs() < 1e-14 * (law.modulus(&Scale::default()) + inner.stress.max_abs())
     );
     let tangent = law.tangent(increment, &old)?;
-    let gap = (tangent - difference(law, increment, &old, 1e-6)?).max_abs();
+    let gap =
+        (tangent - crate::material::difference_tangent(law, increment, &old, 1e-6)?).max_abs();
     // Their terms are as large as the stress, which at large strain is above the tangent.
     let size = tangent.max_abs() + response.stress.max_abs();
     assert!(gap <= tolerance * size, "off by {gap:e} of {size:e}");

@@ -54,11 +54,10 @@ impl<const D: usize> NodeForces<'_, D> {
             let velocity = held.apply(&free);
             *end = element(&velocity, mass > 0.0);
             let mean = (sums.velocity(held.node) + velocity) * 0.5;
-            for k in 0..held.count {
-                let direction = held.directions[k];
-                let force = mass * direction.dot(&(velocity - free)) / dt;
-                reactions[held.conditions[k]] += direction * force;
-                energy.external += force * direction.dot(&mean) * dt;
+            let force = (velocity - free) * (mass / dt);
+            energy.external += force.dot(&mean) * dt;
+            for (condition, reaction) in held.reactions(&force) {
+                reactions[condition] += reaction;
             }
         }
         self.book_energy(&nodes.end, &mut energy);

@@ -4,8 +4,9 @@ use std::sync::atomic::AtomicBool;
 
 use fissure_grid::Shape;
 use fissure_scene::{Body, Report, Scene, SolveError, SweepSettings, SweepTotals, Viscosity};
+use nalgebra::SVector;
 
-use super::filter::filter;
+use super::filter::{Held, filter};
 use super::grid_update::{NodeForces, Nodes, each_node};
 use super::kernels::{Giving, StepKernel};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
@@ -111,12 +112,14 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         Ok(forces.update(nodes, scene, gains))
     }
 
-    /// What the particles' velocities take up, by XPIC or FMPM, in `nodes.carried`.
+    /// What the particles' velocities take up, by XPIC or FMPM, in `nodes.carried`; what holding
+    /// the terms takes is added to the `reactions` of the conditions, N.
     pub(crate) fn filter(
         &self,
         scene: &Scene<D>,
         sums: &mut NodeSums<D>,
         nodes: &mut Nodes,
+        reactions: &mut [SVector<f64, D>],
     ) -> Result<(), SolveError> {
         let transfers = &self.transfers;
         let filtered = match self.settings.transfer {
@@ -129,8 +132,17 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 filter(transfers, scene, sums, start, order, None)
             }
             Transfer::Fmpm { order } => {
-                let held = Some(self.constraints);
-                filter(transfers, scene, sums, nodes.end.clone(), order, held)
+                let mut impulses = vec![SVector::zeros(); reactions.len()];
+                let held = Held {
+                    constraints: self.constraints,
+                    impulses: &mut impulses,
+                };
+                let end = nodes.end.clone();
+                let filtered = filter(transfers, scene, sums, end, order, Some(held));
+                for (reaction, impulse) in reactions.iter_mut().zip(&impulses) {
+                    *reaction += impulse / self.dt;
+                }
+                filtered
             }
             _ => return Ok(()),
         };

@@ -38,8 +38,9 @@ pub enum Transfer {
         order: usize,
     },
     /// The same filter on the accelerated velocities, boundary conditions included
-    /// [Nairn and Hammerquist 2021]. Order 1 is PIC. Reactions are those of the accelerated nodes;
-    /// what holding the terms of the filter takes is not among them.
+    /// [Nairn and Hammerquist 2021]. Order 1 is PIC. Reactions include what holding the terms of
+    /// the filter takes, so that momentum is accounted for; the work of that part is a loss of
+    /// the transfer, not external work.
     Fmpm {
         /// Number of terms.
         order: usize,

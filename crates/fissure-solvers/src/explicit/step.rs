@@ -1,6 +1,6 @@
 //! One explicit step, phase by phase.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use fissure_grid::{Grid, Shape};
 use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
@@ -189,7 +189,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             totals = phases.sweep(scene, sums, pass)?;
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
-        phases.filter(scene, sums, nodes)?;
+        phases.filter(scene, sums, nodes, &mut report.reactions)?;
         let mut pass = Pass {
             field: &nodes.end,
             carried: settings.transfer.carries().then_some(&nodes.carried),
@@ -239,11 +239,16 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
     }
 
     fn memory(&self) -> Vec<f64> {
-        self.fastest.into_iter().collect()
+        let mut memory: Vec<f64> = self.fastest.into_iter().collect();
+        if !self.strayed.load(Relaxed) {
+            memory.extend(self.placement.memory());
+        }
+        memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
         self.fastest = memory.first().copied();
         self.recalled = self.fastest.is_some();
+        self.placement.recall(memory.get(1..).unwrap_or(&[]));
     }
 }

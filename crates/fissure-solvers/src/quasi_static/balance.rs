@@ -72,18 +72,32 @@ pub(super) fn external_forces<S: Shape<D>, const D: usize>(
         .collect())
 }
 
-/// Internal forces of the trial stresses on the nodes, with gradients at the end of the step.
+/// When internal forces are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// Before the step: of the present stresses.
+    Start,
+    /// After it: of the trial stresses, with gradients at the end of the step.
+    End,
+}
+
+/// Internal forces of the stresses on the nodes.
 pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
     sums: &mut NodeSums<D>,
+    at: At,
 ) -> Result<(), (usize, usize)> {
     transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
         let particles = body.particles();
-        let f_new = &particles.trial.deformation_gradient[i];
+        let motion = match at {
+            At::Start => &particles.motion,
+            At::End => &particles.trial,
+        };
+        let f_new = &motion.deformation_gradient[i];
         let f_old = &particles.motion.deformation_gradient[i];
         let volume = particles.volume[i] * f_new.determinant();
-        let (stress, x) = (&particles.trial.stress[i], &particles.trial.position[i]);
+        let (stress, x) = (&motion.stress[i], &motion.position[i]);
         let mut gift = Gift::default();
         add_stress(&mut gift, transfers.kinematics, stress, volume, x);
         // Gradients at the end of the step from those at its start.
@@ -133,22 +147,27 @@ pub(super) fn reactions<const D: usize>(
     let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
     for held in &constraints.held {
         let unbalanced = internal.internal_force(held.node) + external[held.node];
-        for k in 0..held.count {
-            let direction = held.directions[k];
-            reactions[held.conditions[k]] -= direction * direction.dot(&unbalanced);
+        for (condition, reaction) in held.reactions(&-unbalanced) {
+            reactions[condition] += reaction;
         }
     }
     reactions
 }
 
-/// Work of loads and body forces over the step, J: mean of start and end, times the way.
-pub(super) fn load_work<const D: usize>(
+/// Internal forces of all nodes, N.
+pub(super) fn forces<const D: usize>(internal: &NodeSums<D>) -> Vec<SVector<f64, D>> {
+    let nodes = 0..internal.len();
+    nodes.map(|node| internal.internal_force(node)).collect()
+}
+
+/// Work of nodal forces over the step, J: mean of start and end, times the way.
+pub(super) fn work<const D: usize>(
     before: &[SVector<f64, D>],
-    external: &[SVector<f64, D>],
+    now: &[SVector<f64, D>],
     displacement: &[SVector<f64, D>],
 ) -> f64 {
-    let loads = before.iter().zip(external);
-    let pairs = loads.zip(displacement);
+    let forces = before.iter().zip(now);
+    let pairs = forces.zip(displacement);
     pairs
         .map(|((before, now), u)| 0.5 * (before + now).dot(u))
         .sum()

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 
 use super::assembly::Assembly;
 use super::balance::{
-    external_forces, internal_forces, load_work, momenta, reactions, residual, strain,
+    At, external_forces, forces, internal_forces, momenta, reactions, residual, strain, work,
 };
 use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
@@ -61,6 +61,7 @@ struct Equilibrium<const D: usize> {
     reactions: Vec<SVector<f64, D>>,
     iterations: usize,
     load_work: f64,
+    internal_work: f64,
     force_scale: f64,
 }
 
@@ -158,6 +159,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             true => internal.velocity(node) * dt,
             false => SVector::zeros(),
         }));
+        internal_forces(&transfers, scene, internal, At::Start)
+            .map_err(|failed| off_grid(scene, failed))?;
+        let before_stresses = forces(internal);
         let mut held = vec![SVector::zeros(); displacement.len()];
         for node in &constraints.held {
             let present = displacement[node.node] / dt;
@@ -171,7 +175,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         for iteration in 0..=settings.max_iterations {
             let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
                 .map_err(Failed::Refused)?;
-            internal_forces(&transfers, scene, internal)
+            internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
             let (mut right, residual, reaction) = residual(freedoms, internal, &external);
             // Of this state and of the steps accepted before, not of iterates that were left.
@@ -186,7 +190,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                     totals,
                     reactions: reactions(scene, constraints, internal, &external),
                     iterations: iteration,
-                    load_work: load_work(&before_loads, &external, displacement),
+                    load_work: work(&before_loads, &external, displacement),
+                    internal_work: -work(&before_stresses, &forces(internal), displacement),
                     force_scale: scale,
                 });
             }
@@ -239,14 +244,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.has_stepped = true;
         self.force_scale = equilibrium.force_scale;
         let end = scene.time() + dt;
-        let mut work = equilibrium.load_work;
+        let mut external = equilibrium.load_work;
         for (condition, now) in scene.conditions().iter().zip(&equilibrium.reactions) {
             if let ConditionKind::Velocity { hold, speed } = condition.kind() {
                 let before = scene
                     .reaction(condition.name())
                     .unwrap_or_else(SVector::zeros);
                 let way = hold.direction() * (speed.at(end) * dt);
-                work += (before + now).dot(&way) * 0.5;
+                external += (before + now).dot(&way) * 0.5;
             }
         }
         let report = Report {
@@ -254,9 +259,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             time: end,
             dt,
             energy: StepEnergy {
-                external: work,
-                // In equilibrium the internal forces take what the external ones give.
-                internal: work,
+                external,
+                internal: equilibrium.internal_work,
                 stored: equilibrium.totals.stored,
                 dissipated: equilibrium.totals.dissipated,
                 ..StepEnergy::default()

@@ -16,6 +16,10 @@ pub enum Permitted {
     Counts(Bound<u64>, Bound<u64>),
     /// One of these names.
     OneOf(&'static [&'static str]),
+    /// This word, or what else is permitted: for values that depend on another choice.
+    WordOr(&'static str, &'static Permitted),
+    /// Any text without a comma, such as the name of a file.
+    Text,
 }
 
 impl Permitted {
@@ -50,6 +54,8 @@ impl Permitted {
             Self::Numbers(..) => "number",
             Self::Counts(..) => "count",
             Self::OneOf(_) => "choice",
+            Self::WordOr(_, other) => other.kind(),
+            Self::Text => "text",
         }
     }
 
@@ -70,7 +76,8 @@ impl Permitted {
                 Ok(count) => Value::Count(count),
                 Err(_) => return Err(self.unreadable(name, text, "a whole number")),
             },
-            Self::OneOf(_) => Value::Choice(text.to_owned()),
+            Self::WordOr(word, other) if text != *word => return other.parse(name, text),
+            Self::OneOf(_) | Self::WordOr(..) | Self::Text => Value::Choice(text.to_owned()),
         };
         self.refuse_unless_permitted(name, &value, text)?;
         Ok(value)
@@ -107,6 +114,11 @@ impl Permitted {
                     permitted: self.to_string(),
                 });
             }
+            (Self::WordOr(word, _), Value::Choice(choice)) if choice == word => true,
+            (Self::WordOr(_, other), _) => {
+                return other.refuse_unless_permitted(name, value, text);
+            }
+            (Self::Text, Value::Choice(_)) => true,
             _ => {
                 return Err(ParameterError::WrongKind {
                     name: name.to_owned(),
@@ -147,6 +159,8 @@ impl fmt::Display for Permitted {
             ),
             Self::Counts(lower, upper) => interval(formatter, lower, upper),
             Self::OneOf(names) => formatter.write_str(&names.join(", ")),
+            Self::WordOr(word, other) => write!(formatter, "{word}, {other}"),
+            Self::Text => formatter.write_str("any text without a comma"),
         }
     }
 }
@@ -228,6 +242,19 @@ mod tests {
         assert_eq!(Permitted::numbers(0.0..=90.0).to_string(), "[0, 90]");
         assert_eq!(Permitted::numbers(..).to_string(), "(-inf, inf)");
         assert_eq!(Permitted::counts(1..).to_string(), "[1, inf)");
+    }
+
+    #[test]
+    fn a_word_stands_beside_numbers() {
+        const NUMBERS: Permitted = Permitted::Numbers(Bound::Excluded(0.0), Bound::Unbounded);
+        let own = Permitted::WordOr("own", &NUMBERS);
+        assert_eq!(own.parse("young", "own").unwrap(), Value::from("own"));
+        assert_eq!(own.parse("young", "2e9").unwrap(), Value::Number(2e9));
+        assert_eq!(own.to_string(), "own, (0, inf)");
+        for text in ["-1", "owm"] {
+            assert!(own.parse("young", text).is_err());
+        }
+        assert!(own.check("young", &Value::from("other")).is_err());
     }
 
     #[test]

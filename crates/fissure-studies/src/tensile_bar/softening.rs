@@ -246,6 +246,7 @@ fn row(
     row.values = Measures::new()
         .with("dissipated_ratio", balance.dissipated / exact.energy())
         .with("energy_imbalance", balance.energy_imbalance().abs())
+        .with("worst_balance", balance.worst_balance)
         .with("transfer_loss", balance.transfer_loss / exact.energy())
         .with(
             "failed_zone_cells",

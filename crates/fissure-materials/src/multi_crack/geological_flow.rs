@@ -1,0 +1,349 @@
+//! Decohesion in tension, shear and compression: the geological `F_n` with associated flow.
+//!
+//! `F_n(σ, f_n) ≤ 0` with `f_n = ratio(u_n τ/G)` and `u̇ = ω̇ ∂F_n/∂τ` [Sanchez 2010, eqs 3.5.49,
+//! 3.5.64, 3.5.93]. The document steps along the flow of the iterates (4.5 (3) i-ix), so that its
+//! result depends on the iteration; here the flow is that of the end of the step:
+//! ```text
+//! Δu_n = Δω ∂F/∂τ_n,   Δu_s = Δω 2 τ_s/τ_sf²,   F_n = 0.
+//! ```
+//! The opening fixes `τ_n = t₀ − (E₁/L) u_n`, `S = S₀ − 2(λ/L) u_n`, `M = M₀ − a S₀ + a²` with
+//! `a = (λ/L) u_n`, and `f_n`; `F_n = 0` then gives `τ_s`, and `τ_s = τ₀ − (μ/L) Δu_s` gives the slip,
+//! which keeps the direction of the trial. What is left is one equation for the opening,
+//! `Δu_n 2τ_s/τ_sf² = Δu_s ∂F/∂τ_n`, found by bisection between the old opening and the critical
+//! one: it always ends, and a step whose root lies beyond fails the plane.
+//!
+//! The `F_n` that drives the jump has its cohesion `f_n − s` held at zero from below
+//! ([`Geological::flow_partials`] says why), that at which a plane starts is the printed one.
+//!
+//! The opening and the slip stay on unloading. A failed plane slides by Coulomb's law if a
+//! coefficient is given; the shear traction then drops to it at failure under pressure. Without one
+//! it slides on the surface `F_n(f_n = 0) = 0`, which is continuous. A plane that failed under
+//! pressure by dilation stays open by what it has dilated ([`Plane::seat`]).
+
+use fissure_tensor::{Sym, Vector3};
+
+use super::{
+    Decohesion, Plane, Trial,
+    decohesion::{contact, slide},
+};
+use crate::{
+    Initiation, MaterialError, Scale, Softening, check_parameter,
+    criteria::{FailureCriterion, Geological, OnPlane},
+    softening::Linear,
+};
+
+const NAME: &str = "geological decohesion";
+
+/// Associated flow on the geological surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeologicalFlow<S = Linear> {
+    /// The surface before softening.
+    pub surface: Geological,
+    /// Fracture energy G_f in opening, J/m²; > 0.
+    pub toughness: f64,
+    /// Softening curve of `f_n`.
+    pub softening: S,
+    /// Coefficient of friction after failure, dimensionless, ≥ 0; `None`: the surface with
+    /// `f_n = 0`.
+    pub friction: Option<f64>,
+}
+
+/// A plane with its shear direction, seen as a function of the opening.
+struct Opening<'a, S> {
+    law: &'a GeologicalFlow<S>,
+    rest: OnPlane,
+    old_opening: f64,
+    /// Shear traction if nothing slid, Pa.
+    shear: f64,
+    normal_stiffness: f64,
+    lateral_stiffness: f64,
+    shear_stiffness: f64,
+}
+
+impl<S: Softening> Opening<'_, S> {
+    fn on_plane(&self, opening: f64) -> OnPlane {
+        let lateral = self.lateral_stiffness * opening;
+        OnPlane {
+            normal: self.rest.normal - self.normal_stiffness * opening,
+            shear_squared: 0.0,
+            lateral_sum: self.rest.lateral_sum - 2.0 * lateral,
+            lateral_determinant: self.rest.lateral_determinant - lateral * self.rest.lateral_sum
+                + lateral * lateral,
+        }
+    }
+
+    /// Negative where more opening is needed, and the shear traction on the surface.
+    fn excess(&self, opening: f64) -> (f64, f64) {
+        let law = self.law;
+        let partials = law
+            .surface
+            .flow_partials(&self.on_plane(opening), law.left(opening));
+        let capacity = -partials.value;
+        if capacity < 0.0 {
+            return (capacity, 0.0);
+        }
+        let strength = law.surface.shear_strength;
+        let allowed = (strength * capacity.sqrt()).min(self.shear);
+        let slip = (self.shear - allowed) / self.shear_stiffness;
+        let along = (opening - self.old_opening) * 2.0 * allowed / (strength * strength);
+        (along - slip * partials.normal.max(0.0), allowed)
+    }
+
+    /// The opening at the end of the step; `None` if it is beyond the critical one.
+    fn solve(&self) -> Option<f64> {
+        let critical = self.law.softening.critical() * self.law.length();
+        let mut low = self.old_opening;
+        let mut high = critical;
+        if !critical.is_finite() {
+            let free = (self.rest.normal / self.normal_stiffness).max(0.0);
+            high = low.max(free) + self.law.length();
+            for _ in 0..60 {
+                if self.excess(high).0 >= 0.0 {
+                    break;
+                }
+                high *= 2.0;
+            }
+        }
+        // NaN fails the comparison: the plane fails, and the stress is refused as not finite.
+        if !(self.excess(high).0 >= 0.0) {
+            return None;
+        }
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.excess(middle).0 < 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        Some(high)
+    }
+}
+
+impl<S: Softening> GeologicalFlow<S> {
+    fn length(&self) -> f64 {
+        self.toughness / self.surface.strength
+    }
+
+    /// `f_n` at an opening.
+    fn left(&self, opening: f64) -> f64 {
+        self.softening.ratio(opening / self.length())
+    }
+
+    /// Shear traction that a failed plane carries under a pressure, Pa.
+    fn residual(&self, pressure: f64) -> f64 {
+        if let Some(friction) = self.friction {
+            return friction * pressure;
+        }
+        // With f_n = 0 neither the stress along the plane nor P enters.
+        let plane = OnPlane {
+            normal: -pressure,
+            shear_squared: 0.0,
+            lateral_sum: 0.0,
+            lateral_determinant: 0.0,
+        };
+        let capacity = -self.surface.value(&plane, 0.0);
+        self.surface.shear_strength * capacity.max(0.0).sqrt()
+    }
+
+    /// Whether the plane stays as it was.
+    fn holds(&self, old: &Plane, trial: &Trial, stress: &Sym) -> bool {
+        let plane = OnPlane::new(stress, &old.normal());
+        let partials = self.surface.flow_partials(&plane, self.left(old.opening));
+        let slope = partials.normal.abs()
+            + 2.0 * plane.shear_squared.sqrt() * partials.shear_squared
+            + partials.lateral_sum.abs()
+            + partials.lateral_determinant.abs() * plane.lateral_sum.abs();
+        partials.value <= trial.slack * (slope + 1.0 / self.surface.strength)
+    }
+}
+
+impl<S: Softening> Decohesion for GeologicalFlow<S> {
+    /// The stress along the plane enters `F_n` but does not flow.
+    fn associated(&self) -> bool {
+        false
+    }
+
+    /// Planes of shear come in pairs, mirror images in the principal axes.
+    fn isotropic(&self) -> bool {
+        false
+    }
+
+    /// The flow does not follow from a potential, and returning one plane after the other runs in
+    /// circles in about one large step of twenty.
+    fn several(&self) -> bool {
+        false
+    }
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.surface.check()?;
+        let toughness = self.toughness;
+        let rule = "finite and > 0";
+        check_parameter(NAME, "toughness", toughness, toughness > 0.0, rule)?;
+        let friction = self.friction.unwrap_or(0.0);
+        check_parameter(
+            NAME,
+            "friction",
+            friction,
+            friction >= 0.0,
+            "finite and >= 0",
+        )
+    }
+
+    fn scaled(&self, scale: &Scale) -> Self {
+        Self {
+            surface: self.surface.scaled(scale),
+            toughness: self.toughness * scale.toughness,
+            ..*self
+        }
+    }
+
+    fn strength(&self) -> f64 {
+        self.surface.strength
+    }
+
+    fn toughness(&self) -> f64 {
+        self.toughness
+    }
+
+    fn critical(&self) -> f64 {
+        self.softening.critical()
+    }
+
+    fn steepest(&self) -> f64 {
+        self.surface.strength / self.length() * self.softening.steepest()
+    }
+
+    fn ratio(&self, softened: f64) -> f64 {
+        self.softening.ratio(softened)
+    }
+
+    fn dissipated_fraction(&self, softened: f64) -> f64 {
+        self.softening.area(softened)
+    }
+
+    fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
+        self.surface.along(stress, normal)
+    }
+
+    fn upper_bound(&self, stress: &Sym) -> f64 {
+        self.surface.upper_bound(stress)
+    }
+
+    /// The value is that of the stress, the normal that of the stress shrunk to the surface: in one
+    /// large step the shear term, a square, would else outgrow the others and turn the plane.
+    fn initiation(&self, stress: &Sym) -> Initiation {
+        let reached = self.surface.initiation(stress);
+        if !(reached.value > 0.0) {
+            return reached;
+        }
+        let (mut low, mut high, mut normal) = (0.0, 1.0, reached.normal);
+        let mut share = 0.5;
+        for _ in 0..60 {
+            let here = self.surface.initiation(&(*stress * share));
+            if here.value > 0.0 {
+                (high, normal) = (share, here.normal);
+            } else {
+                low = share;
+            }
+            if high - low < 1e-9 * high {
+                break;
+            }
+            share = 0.5 * (low + high);
+        }
+        Initiation {
+            value: reached.value,
+            normal,
+        }
+    }
+
+    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        stress.traction(normal)
+    }
+
+    fn release(&self, old: &Plane, trial: &Trial) -> Plane {
+        if old.failed {
+            return contact(old, trial, |pressure| self.residual(pressure));
+        }
+        let held = trial.stress - trial.elastic.stress(&old.strain());
+        if self.holds(old, trial, &held) {
+            return *old;
+        }
+        let shear = trial.shear_traction(old) - old.slip() * trial.shear_stiffness(old);
+        let opening = Opening {
+            law: self,
+            rest: OnPlane::new(&trial.stress, &old.normal()),
+            old_opening: old.opening,
+            shear: shear.norm(),
+            normal_stiffness: trial.normal_stiffness(old),
+            lateral_stiffness: trial.elastic.lambda() / old.width,
+            shear_stiffness: trial.shear_stiffness(old),
+        };
+        let mut plane = *old;
+        let Some(found) = opening.solve() else {
+            plane.failed = true;
+            plane.softened = self.softening.critical();
+            let critical = plane.softened * self.length();
+            let pressed = trial.normal_traction(old) < opening.normal_stiffness * critical;
+            plane.seat = if pressed { critical } else { 0.0 };
+            return contact(&plane, trial, |pressure| self.residual(pressure));
+        };
+        plane.opening = found;
+        plane.softened = (found / self.length()).max(old.softened);
+        plane.slip = slide(old, trial, opening.excess(found).1).into();
+        plane
+    }
+
+    fn stored(&self, _elastic: &crate::Isotropic, _plane: &Plane) -> f64 {
+        0.0
+    }
+
+    /// `∫ τ·du`. The opening does `∫ τ_nf f_n du` exactly, less the mean of what the normal traction
+    /// lacks to `τ_nf f_n` at both ends; the shear the mean of its values at both ends. A plane that
+    /// was not moving starts to move on the surface at its old jump.
+    fn dissipated(&self, old: &Plane, new: &Plane, trial: &Trial) -> f64 {
+        let slid = (new.slip() - old.slip()).norm();
+        let normal = new.normal();
+        let traction = Vector3::from(new.traction);
+        let along = normal.dot(&traction);
+        let shear = (traction - normal * along).norm();
+        if old.failed {
+            return shear * slid;
+        }
+        let opening = Opening {
+            law: self,
+            rest: OnPlane::new(&trial.stress, &normal),
+            old_opening: old.opening,
+            shear: shear + trial.shear_stiffness(new) * slid,
+            normal_stiffness: trial.normal_stiffness(new),
+            lateral_stiffness: trial.elastic.lambda() / new.width,
+            shear_stiffness: trial.shear_stiffness(new),
+        };
+        let full = self.surface.strength * self.left(old.opening);
+        let (lacking, sheared) = if old.moving {
+            let traction = Vector3::from(old.traction);
+            let along = normal.dot(&traction);
+            (full - along, (traction - normal * along).norm())
+        } else {
+            let start = opening.on_plane(old.opening);
+            let tension = self.surface.tension(&start, self.left(old.opening));
+            let lacking = (full - start.normal).max(full - tension);
+            (lacking, opening.excess(old.opening).1)
+        };
+        let carried = if new.failed {
+            0.0
+        } else {
+            self.left(new.opening)
+        };
+        let lacking_now = self.surface.strength * carried - along;
+        let critical = self.critical() * self.length();
+        let opened = new.opening.min(critical) - old.opening;
+        let area = self.softening.area(new.softened) - self.softening.area(old.softened);
+        let in_opening = self.toughness * area - 0.5 * (lacking + lacking_now) * opened;
+        let in_shear = 0.5 * (sheared + shear) * slid;
+        (in_opening + in_shear).max(0.0)
+    }
+}

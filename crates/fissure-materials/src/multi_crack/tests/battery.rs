@@ -1,0 +1,76 @@
+//! The public battery. Which property does not apply to which variant is said at the test.
+
+use super::*;
+use crate::contract::{Contract, Violation};
+
+fn contract(samples: usize) -> Contract {
+    Contract {
+        samples,
+        step_error_steps: 100,
+        ..Contract::default()
+    }
+}
+
+fn message(outcome: Result<crate::contract::Summary, Violation>) -> String {
+    outcome.err().map(|v| v.to_string()).unwrap_or_default()
+}
+
+#[test]
+fn one_fixed_plane_passes_for_every_unloading_and_shear() {
+    for (unloading, shear) in CHOICES {
+        let law = law::<1>(unloading, shear, Planes::Fixed);
+        assert_eq!(message(contract(40).check_cracking(&law)), "", "{shear:?}");
+    }
+}
+
+/// Without the cracking part: the tangent of sliding friction is not symmetric, and P13 asks its
+/// symmetric part to be positive.
+#[test]
+fn friction_passes_as_any_law() {
+    for (unloading, shear) in [
+        (Unloading::Permanent, Shear::Coulomb(0.5)),
+        (Unloading::Secant, Shear::Damaged(0.5)),
+    ] {
+        let law = law::<1>(unloading, shear, Planes::Fixed);
+        assert_eq!(message(contract(40).check(&law)), "");
+    }
+}
+
+#[test]
+fn several_planes_without_shear_pass() {
+    for unloading in [Unloading::Permanent, Unloading::Secant] {
+        let law = law::<6>(unloading, Shear::Coulomb(0.0), Planes::Multiple(None));
+        assert_eq!(message(contract(32).check_cracking(&law)), "");
+    }
+}
+
+/// P1, P3, P6, P9, P10, P22 and P24 hold. P11 does not where, within one step, two directions ask
+/// for the next plane equally: which one starts is a change of mode, and the stress jumps.
+fn passes_up_to_continuity<M: Material>(law: &M) {
+    if let Err(violation) = contract(40).check(law) {
+        assert_eq!(violation.property, "P11 continuity", "{violation}");
+    }
+}
+
+#[test]
+fn several_planes_with_shear_pass_but_for_changes_of_mode() {
+    for (unloading, shear) in CHOICES {
+        if shear != Shear::Coulomb(0.0) {
+            passes_up_to_continuity(&law::<6>(unloading, shear, Planes::Multiple(None)));
+        }
+    }
+}
+
+#[test]
+fn a_rotating_plane_passes_but_for_crossing_strains() {
+    for unloading in [Unloading::Permanent, Unloading::Secant] {
+        passes_up_to_continuity(&law::<1>(unloading, Shear::Elastic, Planes::Rotating));
+    }
+}
+
+#[test]
+fn geological_flow_passes_but_for_changes_of_mode() {
+    for friction in [None, Some(0.6)] {
+        passes_up_to_continuity(&geological::<1>(friction, Planes::Fixed));
+    }
+}

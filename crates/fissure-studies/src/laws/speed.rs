@@ -1,0 +1,87 @@
+//! Time of an update, against neo-Hookean elasticity on the same deformations in the same run.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use fissure::materials::contract::Random;
+use fissure::prelude::*;
+
+use super::law::Subject;
+
+/// Times of an update over that of neo-Hookean elasticity.
+#[derive(Clone, Copy, Debug)]
+pub struct Speed {
+    /// From the virgin state, 95 % of the strains below 0.7 of the natural one.
+    pub undamaged: f64,
+    /// From three times the natural strain further on: cracks soften, metals flow.
+    pub damaging: f64,
+}
+
+/// Updates of a batch: their data stay in the cache.
+const BATCH: usize = 512;
+/// Batches of each law, in turns; the fastest counts.
+const ROUNDS: usize = 200;
+
+const RUBBER: NeoHookean = NeoHookean {
+    density: 1100.0,
+    young: 1e6,
+    poisson: 0.45,
+};
+
+/// Measures a law.
+pub(super) fn speed<S: Subject>(subject: &S, band: f64, seed: u64) -> Speed {
+    let mut random = Random::new(seed).in_plane(S::M::PLANE);
+    let (mut undamaged, mut damaging) = (Vec::new(), Vec::new());
+    let law = subject.law();
+    let natural = subject.strain();
+    while undamaged.len() < BATCH || damaging.len() < BATCH {
+        let direction = random.strain_direction(false);
+        let size = if random.chance(0.95) { 0.7 } else { 0.95 };
+        let end = direction * (natural * size * random.uniform(0.1, 1.0));
+        undamaged.push((step(Sym::ZERO, end, band), law.initial()));
+        // Tension, so that a law that cracks does.
+        let pull = Sym::dyad(&random.direction()) * natural;
+        let start = step(Sym::ZERO, pull * 3.0, band);
+        if let Ok(response) = law.update(&start, &law.initial()) {
+            damaging.push((step(pull * 3.0, pull * 3.5, band), response.state));
+        } else if damaging.is_empty() && undamaged.len() > 10 * BATCH {
+            break;
+        }
+    }
+    Speed {
+        undamaged: ratio(law, &undamaged),
+        damaging: ratio(law, &damaging),
+    }
+}
+
+fn step(from: Sym, to: Sym, band: f64) -> Increment {
+    let gradient = |strain: Sym| Matrix3::identity() + strain.to_matrix();
+    let mut step = Increment::to(gradient(to));
+    step.f_old = gradient(from);
+    step.band = Band::Uniform(band);
+    step
+}
+
+/// Fastest batch of a law over the fastest of neo-Hookean elasticity.
+fn ratio<M: Material>(law: &M, cases: &[(Increment, M::State)]) -> f64 {
+    let cases = &cases[..cases.len().min(BATCH)];
+    let elastic: Vec<_> = cases
+        .iter()
+        .map(|(increment, _)| (*increment, ()))
+        .collect();
+    let (mut own, mut reference) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..ROUNDS {
+        own = own.min(batch(law, cases));
+        reference = reference.min(batch(&RUBBER, &elastic));
+    }
+    own / reference
+}
+
+/// Seconds for all updates once.
+fn batch<M: Material>(law: &M, cases: &[(Increment, M::State)]) -> f64 {
+    let start = Instant::now();
+    for (increment, state) in cases {
+        let _ = black_box(law.update(black_box(increment), black_box(state)));
+    }
+    start.elapsed().as_secs_f64()
+}
