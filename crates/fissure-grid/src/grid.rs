@@ -59,13 +59,13 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Width of a cell, m.
-    #[inline]
+    #[inline(always)]
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
     /// 1 / spacing, 1/m.
-    #[inline]
+    #[inline(always)]
     pub fn inverse_spacing(&self) -> f64 {
         self.inverse
     }
@@ -96,29 +96,36 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Whether a point is in the box, faces included; false for NaN.
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, x: &SVector<f64, D>) -> bool {
         (0..D).all(|axis| x[axis] >= self.origin[axis] && x[axis] <= self.top[axis])
     }
 
     /// The cell that owns a point and the point's coordinate in it, [0, 1) in cells (1 on the grid's upper face). None if
     /// the point is outside or not a number.
-    #[inline]
+    #[inline(always)]
     pub fn locate(&self, x: &SVector<f64, D>) -> Option<([i32; D], SVector<f64, D>)> {
         self.contains(x).then(|| self.local(x))
     }
 
     /// As [`Grid::locate`] for a point known to be inside. For others the nearest cell with the coordinate cut to
     /// [0, 1] (NaN stays NaN).
-    #[inline]
+    #[inline(always)]
     pub fn local(&self, x: &SVector<f64, D>) -> ([i32; D], SVector<f64, D>) {
-        let mut cell = [0; D];
+        let (cell, local) = self.cell_and_local(x);
+        // A cast is exact for what is inside and saturates.
+        (std::array::from_fn(|axis| cell[axis] as i32), local)
+    }
+
+    /// The same with the cell's whole numbers as `f64`, which vector units handle better.
+    #[inline(always)]
+    pub(crate) fn cell_and_local(&self, x: &SVector<f64, D>) -> (SVector<f64, D>, SVector<f64, D>) {
+        let mut cell = SVector::zeros();
         let mut local = SVector::zeros();
         for axis in 0..D {
             let scaled = (x[axis] - self.origin[axis]) * self.inverse;
-            // A cast rounds towards zero and saturates, which is the floor for what is inside.
-            cell[axis] = (scaled as i32).clamp(0, self.cells[axis] - 1);
-            local[axis] = (scaled - f64::from(cell[axis])).clamp(0.0, 1.0);
+            cell[axis] = scaled.floor().clamp(0.0, f64::from(self.cells[axis] - 1));
+            local[axis] = (scaled - cell[axis]).clamp(0.0, 1.0);
         }
         (cell, local)
     }

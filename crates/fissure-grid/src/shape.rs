@@ -35,7 +35,7 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
 
     /// The domain (half-edge vectors as columns, m) the particle has now, from the one it was seeded with and the upper
     /// left D×D block of its deformation gradient. Kept as it was unless the shape deforms it, as CPDI does.
-    #[inline]
+    #[inline(always)]
     fn domain(&self, initial: &SMatrix<f64, D, D>, _f: &SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
         *initial
     }

@@ -51,7 +51,7 @@ const fn table<const N: usize>(dimensions: usize) -> [(u8, u8); N] {
 }
 
 /// Window index, along one axis, of the first of `count` nodes starting at `node`; None if they do not all fit.
-#[inline]
+#[inline(always)]
 pub(crate) fn window_start(tile: i32, node: i32, count: i32) -> Option<usize> {
     let start = node
         .saturating_sub(tile.saturating_mul(TILE))

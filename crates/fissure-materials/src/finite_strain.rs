@@ -23,6 +23,7 @@ impl LeftStrain {
     ///
     /// # Errors
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
+    #[inline]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
         let determinant = f.determinant();
         let h = f - Matrix3::identity();
@@ -30,25 +31,28 @@ impl LeftStrain {
             - h.m31 * h.m13;
         let third = h.determinant();
         let dilation = h.trace() + second + third;
+        let square = h.norm_squared();
         // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
-        // or less while the other is not.
+        // or less while the other is not. A component that is not finite makes the square so.
         let sound = determinant > 0.0 && determinant.is_finite() && dilation > -1.0;
-        if !(sound && f.iter().all(|c| c.is_finite())) {
+        if !(sound && square.is_finite()) {
             return Err(MaterialError::Deformation { determinant });
         }
         Ok(Self {
             excess: Sym::from_matrix(&h) * 2.0 + Sym::from_matrix(&(h * h.transpose())),
             dilation,
-            distortion: h.norm_squared() - 2.0 * (second + third),
+            distortion: square - 2.0 * (second + third),
         })
     }
 
     /// `J`.
+    #[inline]
     pub fn jacobian(&self) -> f64 {
         1.0 + self.dilation
     }
 
     /// `ln J`.
+    #[inline]
     pub fn log_jacobian(&self) -> f64 {
         self.dilation.ln_1p()
     }
@@ -57,6 +61,7 @@ impl LeftStrain {
 /// `x − ln(1 + x)`, of second order in `x`, to round-off.
 ///
 /// With `r = x/(2 + x)` it is `x r − 2 (r³/3 + r⁵/5 + …)`, from `ln(1 + x) = 2 artanh r`.
+#[inline]
 pub(crate) fn excess_over_log(x: f64) -> f64 {
     if x.abs() > 0.1 {
         return x - x.ln_1p();

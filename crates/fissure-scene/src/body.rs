@@ -1,15 +1,16 @@
 //! A body: particles in columns and one law.
 
 use fissure_materials::{MaterialError, Matrix3, Scale, Tangent};
-use fissure_particles::{Column, ExtraError, MotionSlices, Particles};
+use fissure_particles::{Column, ExtraError, MotionSlices, MotionSlicesMut, Particles};
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::SolveError;
 use crate::law::{BodyLaw, Constants, SweepLaw};
+use crate::over_tiles::{Cut, over_tiles};
 use crate::sweep::{
-    Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
+    KernelFailure, Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
 
 /// Optional column: factors on the law's parameters, particle by particle.
@@ -135,6 +136,65 @@ impl<const D: usize> Body<D> {
         self.sweep_into(runs, kernel, settings, None)
     }
 
+    /// The same without the law: the kernel gathers and scatters.
+    ///
+    /// # Errors
+    /// The particle that the kernel could not move.
+    pub fn move_runs(
+        &mut self,
+        runs: &[Run],
+        kernel: &dyn RunKernel<D>,
+    ) -> Result<(), BodyFailure<D>> {
+        self.particles.make_trial();
+        let (motion, mut trial) = (
+            self.particles.motion.slices(),
+            self.particles.trial.slices_mut(),
+        );
+        let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
+            return Ok(());
+        };
+        let constants = Constants {
+            id: &self.particles.id,
+            mass: &self.particles.mass,
+            volume: &self.particles.volume,
+            density: self.law.density(),
+            scale: None,
+        };
+        let whole = Moving {
+            old: motion,
+            new: trial.reborrow(),
+        };
+        let (part, _) = whole.cut(last.end as usize);
+        let (_, part) = part.cut(first.start as usize);
+        let leaf = |runs: &[Run], part: Moving<'_, D>| {
+            let mut rest = Some(part);
+            kernel.on_tile(runs[0].tile, &mut |kernel| {
+                for run in runs {
+                    let Some(part) = rest.take() else { continue };
+                    let (mut part, left) = part.cut(run.len());
+                    rest = Some(left);
+                    let given = constants.of(run);
+                    let moved = kernel.gather(run, &given, &part.old, &mut part.new);
+                    if let Err(failure) = moved {
+                        let (old, new) = (&part.old, &mut part.new);
+                        return Err(failure.lowest(kernel, run, &constants, old, new));
+                    }
+                    kernel.scatter(run, &given, &part.old, &part.new.as_slices());
+                }
+                Ok(())
+            })
+        };
+        let moved = over_tiles(runs, part, &leaf, &Result::and).unwrap_or(Ok(()));
+        moved.map_err(|KernelFailure { index }| BodyFailure {
+            position: motion.position[index],
+            failure: SweepFailure {
+                id: self.particles.id[index],
+                index,
+                cause: SweepCause::Kernel,
+            },
+        })
+    }
+
     /// The same with the spatial tangent of every particle.
     ///
     /// # Errors
@@ -160,6 +220,7 @@ impl<const D: usize> Body<D> {
         self.particles.make_trial();
         let Particles {
             id,
+            mass,
             volume,
             motion,
             trial,
@@ -168,6 +229,7 @@ impl<const D: usize> Body<D> {
         } = &mut self.particles;
         let constants = Constants {
             id,
+            mass,
             volume,
             density: self.law.density(),
             scale: extra.get::<ParticleScale>(),
@@ -206,6 +268,7 @@ impl<const D: usize> Body<D> {
     fn constants(&self) -> Constants<'_> {
         Constants {
             id: &self.particles.id,
+            mass: &self.particles.mass,
             volume: &self.particles.volume,
             density: self.law.density(),
             scale: self.scales(),
@@ -218,8 +281,31 @@ impl<const D: usize> Body<D> {
     }
 
     /// The `D×D` part of a deformation gradient that moves in the scene's dimensions.
+    #[inline(always)]
     pub fn in_space(f: &Matrix3<f64>) -> SMatrix<f64, D, D> {
         SMatrix::from_fn(|i, j| f[(i, j)])
+    }
+}
+
+/// The motion of some consecutive particles.
+struct Moving<'a, const D: usize> {
+    old: MotionSlices<'a, D>,
+    new: MotionSlicesMut<'a, D>,
+}
+
+impl<const D: usize> Cut for Moving<'_, D> {
+    fn cut(self, row: usize) -> (Self, Self) {
+        let (old_a, old_b) = self.old.split_at(row);
+        let (new_a, new_b) = self.new.split_at(row);
+        let a = Self {
+            old: old_a,
+            new: new_a,
+        };
+        let b = Self {
+            old: old_b,
+            new: new_b,
+        };
+        (a, b)
     }
 }
 

@@ -6,17 +6,30 @@ use fissure_tensor::{Band, Sym};
 
 use crate::PersistError;
 use crate::body::ParticleScale;
+use crate::over_tiles::{Cut, over_tiles};
 use crate::sweep::{
-    Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
+    KernelFailure, Run, RunConstants, RunKernel, SweepCause, SweepFailure, SweepSettings,
+    SweepTotals, Tangents, TileKernel,
 };
 
 /// Columns of a body that a sweep reads besides the motion.
 #[derive(Clone, Copy)]
 pub(crate) struct Constants<'a> {
     pub id: &'a [ParticleId],
+    pub mass: &'a [f64],
     pub volume: &'a [f64],
     pub density: f64,
     pub scale: Option<&'a [ParticleScale]>,
+}
+
+impl<'a> Constants<'a> {
+    pub(crate) fn of(&self, run: &Run) -> RunConstants<'a> {
+        let rows = run.start as usize..run.end as usize;
+        RunConstants {
+            mass: &self.mass[rows.clone()],
+            volume: &self.volume[rows],
+        }
+    }
 }
 
 /// What a body asks of its law, whatever the law's type.
@@ -176,14 +189,21 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
             settings,
         };
         let part = Part {
-            first: 0,
             old,
             new,
             states: &self.states,
             trial: &mut self.trial,
             tangents,
         };
-        sweep.runs(runs, part)
+        let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
+            return Ok(SweepTotals::default());
+        };
+        // The runs may be those of a part of the body.
+        let (part, _) = part.cut(last.end as usize);
+        let (_, part) = part.cut(first.start as usize);
+        let leaf = |runs: &[Run], part| sweep.tile(runs, part);
+        over_tiles(runs, part, &leaf, &SweepFailure::first)
+            .unwrap_or_else(|| Ok(SweepTotals::default()))
     }
 }
 
@@ -201,7 +221,6 @@ struct Sweep<'a, M: Material, const D: usize> {
 
 /// The columns of some consecutive runs, cut out of the body's.
 struct Part<'a, S, const D: usize> {
-    first: usize,
     old: MotionSlices<'a, D>,
     new: MotionSlicesMut<'a, D>,
     states: &'a [S],
@@ -209,8 +228,8 @@ struct Part<'a, S, const D: usize> {
     tangents: Tangents<'a>,
 }
 
-impl<'a, S, const D: usize> Part<'a, S, D> {
-    fn split_at(self, row: usize) -> (Self, Self) {
+impl<S: Send + Sync, const D: usize> Cut for Part<'_, S, D> {
+    fn cut(self, row: usize) -> (Self, Self) {
         let (old_a, old_b) = self.old.split_at(row);
         let (new_a, new_b) = self.new.split_at(row);
         let (states_a, states_b) = self.states.split_at(row);
@@ -218,7 +237,6 @@ impl<'a, S, const D: usize> Part<'a, S, D> {
         let (tangents_a, tangents_b) = self.tangents.split_at(row);
         (
             Self {
-                first: self.first,
                 old: old_a,
                 new: new_a,
                 states: states_a,
@@ -226,7 +244,6 @@ impl<'a, S, const D: usize> Part<'a, S, D> {
                 tangents: tangents_a,
             },
             Self {
-                first: self.first + row,
                 old: old_b,
                 new: new_b,
                 states: states_b,
@@ -238,33 +255,53 @@ impl<'a, S, const D: usize> Part<'a, S, D> {
 }
 
 impl<M: Material, const D: usize> Sweep<'_, M, D> {
-    /// Halves the runs until one is left. The tree depends on the runs alone, so sums do too.
-    fn runs(&self, runs: &[Run], part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
-        match runs {
-            [] => Ok(SweepTotals::default()),
-            [run] => self.run(run, part),
-            _ => {
-                let (left, right) = runs.split_at(runs.len() / 2);
-                let (a, b) = part.split_at((right[0].start - left[0].start) as usize);
-                let (a, b) = rayon::join(|| self.runs(left, a), || self.runs(right, b));
-                SweepFailure::first(a, b)
+    /// The runs of one tile, one after another.
+    fn tile(&self, runs: &[Run], part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
+        let mut result = Ok(SweepTotals::default());
+        let mut rest = Some(part);
+        let moved = self.kernel.on_tile(runs[0].tile, &mut |kernel| {
+            for run in runs {
+                let Some(part) = rest.take() else { continue };
+                let (mut part, left) = part.cut(run.len());
+                rest = Some(left);
+                let constants = self.constants.of(run);
+                let moved = kernel.gather(run, &constants, &part.old, &mut part.new);
+                if let Err(failure) = moved {
+                    let (old, new) = (&part.old, &mut part.new);
+                    return Err(failure.lowest(kernel, run, &self.constants, old, new));
+                }
+                let totals = self.run(run, kernel, &mut part);
+                if totals.is_ok() {
+                    kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
+                }
+                result = SweepFailure::first(
+                    std::mem::replace(&mut result, Ok(SweepTotals::default())),
+                    totals,
+                );
             }
+            Ok(())
+        });
+        match moved {
+            Ok(()) => result,
+            Err(KernelFailure { index }) => Err(self.failure(index, SweepCause::Kernel)),
         }
     }
 
-    fn run(&self, run: &Run, part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
+    /// Calls the law on each particle of a run.
+    fn run(
+        &self,
+        run: &Run,
+        kernel: &dyn TileKernel<D>,
+        part: &mut Part<'_, M::State, D>,
+    ) -> Result<SweepTotals, SweepFailure> {
         let Part {
-            first,
             old,
-            mut new,
+            new,
             states,
             trial,
-            mut tangents,
+            tangents,
         } = part;
-        if let Err(failure) = self.kernel.gather(run, &old, &mut new) {
-            let failure = failure.lowest(self.kernel, run, self.constants.id, &old, &mut new);
-            return Err(self.failure(first + failure.row, SweepCause::Kernel));
-        }
+        let first = run.start as usize;
         let mut totals = SweepTotals::default();
         let mut failure: Option<SweepFailure> = None;
         for row in 0..old.len() {
@@ -277,10 +314,10 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                 band: self.settings.band,
                 external: External {
                     scale,
-                    ..self.kernel.external(run, row)
+                    ..kernel.external(run, row)
                 },
             };
-            let answer = match &mut tangents {
+            let answer = match tangents {
                 Tangents::None => self.law.update(&increment, &states[row]),
                 Tangents::Into(tangents) => self
                     .law

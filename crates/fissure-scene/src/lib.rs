@@ -28,6 +28,7 @@ mod every;
 mod kinematics;
 mod law;
 mod ledger;
+mod over_tiles;
 mod persist;
 mod scene;
 mod solver;
@@ -41,7 +42,11 @@ pub use fissure_materials::External;
 pub use kinematics::{Kinematics, Plane};
 pub use law::BodyLaw;
 pub use ledger::{EnergyTotals, Report, StepEnergy};
+pub use over_tiles::for_each_tile;
 pub use persist::Section;
 pub use scene::Scene;
 pub use solver::{RunSummary, Solver, Until, Watch, run};
-pub use sweep::{KernelFailure, Run, RunKernel, SweepSettings, SweepTotals, Viscosity};
+pub use sweep::{
+    ByRun, KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, TileKernel,
+    Viscosity,
+};

@@ -87,8 +87,9 @@ impl<const D: usize> Scene<D> {
         &self.bodies
     }
 
-    /// Its bodies, for solvers.
+    /// Its bodies, for solvers. Counts as an edit: a solver prepares anew unless it was its own.
     pub fn bodies_mut(&mut self) -> &mut [Body<D>] {
+        self.edits += 1;
         &mut self.bodies
     }
 
@@ -110,6 +111,11 @@ impl<const D: usize> Scene<D> {
     /// Acceleration of the body force at a place and time, m/s²; `None` if there is none.
     pub fn body_acceleration(&self, x: &SVector<f64, D>, t: f64) -> Option<SVector<f64, D>> {
         self.body_force.as_ref().map(|force| force(x, t))
+    }
+
+    /// Whether there is a body force.
+    pub fn has_body_force(&self) -> bool {
+        self.body_force.is_some()
     }
 
     /// Energies since the start.

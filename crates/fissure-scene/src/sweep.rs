@@ -4,6 +4,8 @@ use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::Band;
 
+use crate::law::Constants;
+
 /// Consecutive particles of one body that lie in one tile of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
@@ -30,26 +32,26 @@ impl Run {
     }
 }
 
-/// A particle of a run that a kernel could not move.
+/// A particle that a kernel could not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KernelFailure {
-    /// Index within the run.
-    pub row: usize,
+    /// Index into the body's columns.
+    pub index: usize,
 }
 
 impl KernelFailure {
     /// Of the particles of a run that a kernel cannot move the one with the lowest id, whatever
     /// their order: the kernel, which stopped at the first, is asked for each one by itself.
-    pub fn lowest<const D: usize>(
+    pub(crate) fn lowest<const D: usize>(
         self,
-        kernel: &dyn RunKernel<D>,
+        kernel: &mut dyn TileKernel<D>,
         run: &Run,
-        ids: &[ParticleId],
+        constants: &Constants<'_>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Self {
-        let mut lowest = self.row;
-        for row in self.row + 1..old.len() {
+        let mut lowest = self.index;
+        for row in self.index + 1 - run.start as usize..run.len() {
             let start = run.start + row as u32;
             let alone = Run {
                 start,
@@ -58,28 +60,101 @@ impl KernelFailure {
             };
             let (old, _) = old.split_at(row).1.split_at(1);
             let (mut new, _) = new.reborrow().split_at(row).1.split_at(1);
-            let failed = kernel.gather(&alone, &old, &mut new).is_err();
-            if failed && ids[start as usize] < ids[run.start as usize + lowest] {
-                lowest = row;
+            let failed = kernel
+                .gather(&alone, &constants.of(&alone), &old, &mut new)
+                .is_err();
+            if failed && constants.id[start as usize] < constants.id[lowest] {
+                lowest = start as usize;
             }
         }
-        Self { row: lowest }
+        Self { index: lowest }
     }
 }
 
-/// What a solver does to a run before the law sees it: fills the trial motion (at least the
-/// deformation gradient) from the present one.
+/// What does not change of the particles of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct RunConstants<'a> {
+    /// Masses, kg.
+    pub mass: &'a [f64],
+    /// Volumes at rest, m³.
+    pub volume: &'a [f64],
+}
+
+/// What a solver does with a body's particles before and after the law sees them, tile by tile.
 pub trait RunKernel<const D: usize>: Sync {
-    /// Fills `new` from `old`; both hold the particles of `run` only.
+    /// Opens a tile: calls `work` once, which hands over the body's runs in it one after another,
+    /// all on one thread. What the runs of a tile share (a window of nodes) is kept on the stack
+    /// of this call.
+    ///
+    /// # Errors
+    /// What `work` returns.
+    fn on_tile(
+        &self,
+        tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure>;
+}
+
+/// A kernel that fills the trial motion by a function of a run and the present motion, which gives
+/// the failing row, and shares nothing within a tile.
+pub struct ByRun<F>(pub F);
+
+impl<const D: usize, F> RunKernel<D> for ByRun<F>
+where
+    F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize> + Sync,
+{
+    fn on_tile(
+        &self,
+        _tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        work(&mut OneRun(&self.0))
+    }
+}
+
+struct OneRun<'a, F>(&'a F);
+
+impl<const D: usize, F> TileKernel<D> for OneRun<'_, F>
+where
+    F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize>,
+{
+    fn gather(
+        &mut self,
+        run: &Run,
+        _constants: &RunConstants<'_>,
+        old: &MotionSlices<'_, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) -> Result<(), KernelFailure> {
+        self.0(run, old, new).map_err(|row| KernelFailure {
+            index: run.start as usize + row,
+        })
+    }
+}
+
+/// A kernel at work on a tile.
+pub trait TileKernel<const D: usize> {
+    /// Fills the trial motion `new` (at least the deformation gradient) from the present one;
+    /// both hold the particles of `run` only.
     ///
     /// # Errors
     /// The first particle that is outside the grid.
     fn gather(
-        &self,
+        &mut self,
         run: &Run,
+        constants: &RunConstants<'_>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure>;
+
+    /// Takes what the law made of the run, its stresses for example, on to the nodes.
+    fn scatter(
+        &mut self,
+        _run: &Run,
+        _constants: &RunConstants<'_>,
+        _old: &MotionSlices<'_, D>,
+        _new: &MotionSlices<'_, D>,
+    ) {
+    }
 
     /// What the solver sets for the law of one particle (by row of the run) in this step: a
     /// temperature change, a damage interpolated from a nodal field. The particle's own scale is

@@ -2,7 +2,9 @@
 
 use fissure_materials::{Increment, Isotropic, Material, MaterialError, Matrix3, Response, Scale};
 use fissure_particles::{Block, MotionSlices, MotionSlicesMut, Spacing};
-use fissure_scene::{External, KernelFailure, Plane, Run, RunKernel, Scene, SweepSettings};
+use fissure_scene::{
+    External, KernelFailure, Plane, Run, RunConstants, RunKernel, Scene, SweepSettings, TileKernel,
+};
 use fissure_tensor::Band;
 
 /// Elasticity that a damage from outside degrades.
@@ -36,9 +38,22 @@ struct Field {
 }
 
 impl RunKernel<2> for Field {
-    fn gather(
+    fn on_tile(
         &self,
+        _tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<2>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        work(&mut Stretch(self))
+    }
+}
+
+struct Stretch<'a>(&'a Field);
+
+impl TileKernel<2> for Stretch<'_> {
+    fn gather(
+        &mut self,
         _run: &Run,
+        _constants: &RunConstants<'_>,
         _old: &MotionSlices<'_, 2>,
         new: &mut MotionSlicesMut<'_, 2>,
     ) -> Result<(), KernelFailure> {
@@ -51,7 +66,7 @@ impl RunKernel<2> for Field {
 
     fn external(&self, run: &Run, row: usize) -> External {
         External {
-            damage: self.damage[run.start as usize + row],
+            damage: self.0.damage[run.start as usize + row],
             ..External::default()
         }
     }

@@ -5,27 +5,22 @@
 
 use fissure_materials::Isotropic;
 use fissure_particles::{Block, MotionSlices, MotionSlicesMut, ParticleId, Spacing};
-use fissure_scene::{KernelFailure, Plane, Run, RunKernel, Scene, SolveError, SweepSettings};
+use fissure_scene::{ByRun, Plane, Run, RunKernel, Scene, SolveError, SweepSettings};
 use fissure_tensor::Band;
 
 /// Cannot move particles beyond a place.
-struct Wall(f64);
-
-impl RunKernel<2> for Wall {
-    fn gather(
-        &self,
-        _run: &Run,
-        old: &MotionSlices<'_, 2>,
-        new: &mut MotionSlicesMut<'_, 2>,
-    ) -> Result<(), KernelFailure> {
-        for row in 0..old.len() {
-            new.deformation_gradient[row] = old.deformation_gradient[row];
-            if old.position[row][0] > self.0 {
-                return Err(KernelFailure { row });
+fn wall(place: f64) -> impl RunKernel<2> {
+    ByRun(
+        move |_: &Run, old: &MotionSlices<'_, 2>, new: &mut MotionSlicesMut<'_, 2>| {
+            for row in 0..old.len() {
+                new.deformation_gradient[row] = old.deformation_gradient[row];
+                if old.position[row][0] > place {
+                    return Err(row);
+                }
             }
-        }
-        Ok(())
-    }
+            Ok(())
+        },
+    )
 }
 
 #[test]
@@ -75,7 +70,7 @@ fn the_lowest_id_of_a_run_is_reported_whatever_the_order() {
     ];
     for order in orders {
         body.reorder(&order).unwrap();
-        let failure = body.sweep(&runs, &Wall(0.5), &settings).unwrap_err();
+        let failure = body.sweep(&runs, &wall(0.5), &settings).unwrap_err();
         let SolveError::Outside { id, position, .. } = failure.at(body, 1, 0.0) else {
             panic!("not the kernel's failure");
         };

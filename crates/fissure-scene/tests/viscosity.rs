@@ -4,27 +4,20 @@
 
 use fissure_materials::{Hencky, Isotropic, Matrix3};
 use fissure_particles::{Block, MotionSlices, MotionSlicesMut, Spacing};
-use fissure_scene::{
-    KernelFailure, Kinematics, Plane, Run, RunKernel, Scene, SweepSettings, Viscosity,
-};
+use fissure_scene::{ByRun, Kinematics, Plane, Run, RunKernel, Scene, SweepSettings, Viscosity};
 use fissure_tensor::{Band, Sym};
 
 /// Gives every particle one deformation gradient; the thickness is the law's in plane stress.
-struct Strain(Matrix3<f64>);
-
-impl RunKernel<2> for Strain {
-    fn gather(
-        &self,
-        _run: &Run,
-        old: &MotionSlices<'_, 2>,
-        new: &mut MotionSlicesMut<'_, 2>,
-    ) -> Result<(), KernelFailure> {
-        for row in 0..old.len() {
-            new.deformation_gradient[row] = self.0;
-            new.deformation_gradient[row].m33 = old.deformation_gradient[row].m33;
-        }
-        Ok(())
-    }
+fn strain(f: Matrix3<f64>) -> impl RunKernel<2> {
+    ByRun(
+        move |_: &Run, old: &MotionSlices<'_, 2>, new: &mut MotionSlicesMut<'_, 2>| {
+            for row in 0..old.len() {
+                new.deformation_gradient[row] = f;
+                new.deformation_gradient[row].m33 = old.deformation_gradient[row].m33;
+            }
+            Ok(())
+        },
+    )
 }
 
 /// Stress, deformation gradient and viscous work of a particle after a strain at rest and a small
@@ -57,14 +50,14 @@ fn squeezed(plane: Plane, viscosity: Option<Viscosity>) -> (Sym, [Matrix3<f64>; 
         viscosity: None,
     };
     let first = Matrix3::new(0.9, 0.02, 0.0, 0.01, 1.1, 0.0, 0.0, 0.0, 1.0);
-    body.sweep(&runs, &Strain(first), &settings).unwrap();
+    body.sweep(&runs, &strain(first), &settings).unwrap();
     body.commit().unwrap();
     let old = body.motion().deformation_gradient[0];
     settings.viscosity = viscosity;
     let mut second = first;
     second.m11 -= 1e-7;
     second.m21 += 3e-7;
-    let totals = body.sweep(&runs, &Strain(second), &settings).unwrap();
+    let totals = body.sweep(&runs, &strain(second), &settings).unwrap();
     body.commit().unwrap();
     let motion = body.motion();
     let new = motion.deformation_gradient[0];

@@ -2,16 +2,19 @@
 //!
 //! A solver owns its discretisation, a grid and a shape function, and moves a
 //! [`Scene`](fissure_scene::Scene). The files follow the step: `placement` sorts the particles
-//! into tiles and runs, `to_grid` sums them to the nodes, `grid_update` moves the nodes,
-//! `to_particles` brings the motion back; the law is called per run in between.
+//! into tiles and runs, `explicit::step` names the phases, `grid_update` moves the nodes, `kernels` bring
+//! the motion to the particles and what they make of it back to the nodes, with the law called in
+//! between; `transfers` sums particles to nodes without it.
 
 mod band;
 mod constraints;
 mod explicit;
 mod loads;
+mod nodes;
 mod placement;
 mod quasi_static;
-mod to_grid;
+mod transfers;
+mod window;
 
 pub use band::BandSource;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};

@@ -1,45 +1,93 @@
-//! External forces of the conditions on the nodes.
+//! External forces on the nodes: those of the conditions and the body force.
 
-use fissure_grid::{Shape, Stencil, tile_of};
+use fissure_grid::{Grid, Shape, Stencil};
 use fissure_scene::{ConditionKind, Scene, Selection};
+use nalgebra::SVector;
 
-use crate::to_grid::{NodeLookup, Sums, Transfers};
+use crate::placement::Placement;
+use crate::transfers::Transfers;
+use crate::window::WindowNodes;
 
-/// Adds the loads of the conditions at `time`, N, to the nodes that their particles reach.
-///
-/// # Errors
-/// Body and index of a particle off the grid.
-pub(crate) fn add_loads<S: Shape<D>, const D: usize>(
-    transfers: &Transfers<'_, S, D>,
-    scene: &Scene<D>,
-    sums: &mut Sums<D>,
+/// External forces at one time. Costs nothing in a scene that has none.
+pub(crate) struct Loads<'a, const D: usize> {
+    scene: &'a Scene<D>,
+    grid: &'a Grid<D>,
+    placement: &'a Placement<D>,
     time: f64,
-) -> Result<(), (usize, usize)> {
-    let tiles = &transfers.placement.tiles;
-    for (index, condition) in scene.conditions().iter().enumerate() {
-        let (ConditionKind::Force(force), Selection::Body { body, .. }) =
-            (condition.kind(), condition.selection())
-        else {
-            continue;
+    /// Of the conditions, by node, N; empty without any.
+    forces: Vec<SVector<f64, D>>,
+}
+
+impl<'a, const D: usize> Loads<'a, D> {
+    /// The loads at `time`; forces of conditions are spread by the present stencils of their
+    /// particles.
+    ///
+    /// # Errors
+    /// Body and index of a particle off the grid.
+    pub(crate) fn new<S: Shape<D>>(
+        transfers: &Transfers<'a, S, D>,
+        scene: &'a Scene<D>,
+        time: f64,
+    ) -> Result<Self, (usize, usize)> {
+        let mut loads = Self {
+            scene,
+            grid: transfers.grid,
+            placement: transfers.placement,
+            time,
+            forces: Vec::new(),
         };
-        let (body_index, body) = (*body, &scene.bodies()[*body]);
-        let rows = transfers.placement.selected(index);
+        for (index, condition) in scene.conditions().iter().enumerate() {
+            if let (ConditionKind::Force(force), Selection::Body { body, .. }) =
+                (condition.kind(), condition.selection())
+            {
+                let count = transfers.placement.tiles.node_count();
+                loads.forces.resize(count, SVector::zeros());
+                loads.spread(transfers, index, *body, force(time))?;
+            }
+        }
+        Ok(loads)
+    }
+
+    /// Shares a condition's force out to its particles by volume, and on to their nodes.
+    fn spread<S: Shape<D>>(
+        &mut self,
+        transfers: &Transfers<'_, S, D>,
+        condition: usize,
+        body_index: usize,
+        force: SVector<f64, D>,
+    ) -> Result<(), (usize, usize)> {
+        let placement = transfers.placement;
+        let body = &self.scene.bodies()[body_index];
+        let rows = placement.selected(condition);
         let volume = &body.particles().volume;
         let total: f64 = rows.iter().map(|&row| volume[row as usize]).sum();
-        let force = force(time);
         for &row in rows {
-            let row = row as usize;
-            let off_grid = (body_index, row);
-            let cell = transfers.grid.cell(&body.motion().position[row]);
-            let tile = cell.and_then(|cell| tiles.find(tile_of(cell)));
-            let tile = tile.ok_or(off_grid)?;
-            let stencil = transfers.stencil(body, tiles.coordinates(tile), row);
-            let lookup = NodeLookup::new(tiles, tile);
-            let share = force * (volume[row] / total);
+            let off_grid = (body_index, row as usize);
+            let tile = placement.tile_of_row(body_index, row).ok_or(off_grid)?;
+            let coordinates = placement.tiles.coordinates(tile);
+            let stencil = transfers.stencil(body, coordinates, row as usize);
+            let nodes = WindowNodes::new(&placement.tiles, tile);
+            let share = force * (volume[row as usize] / total);
             stencil.ok_or(off_grid)?.visit_values(|entry, weight| {
-                sums.nodes[lookup.node(entry)].external_force += share * weight;
+                self.forces[nodes.node(entry)] += share * weight;
             });
         }
+        Ok(())
     }
-    Ok(())
+
+    /// External force on a node of this mass, N.
+    #[inline]
+    pub(crate) fn at(&self, node: usize, mass: f64) -> SVector<f64, D> {
+        let mut force = SVector::zeros();
+        if let Some(load) = self.forces.get(node) {
+            force = *load;
+        }
+        if self.scene.has_body_force() {
+            let x = self.placement.tiles.node_position(self.grid, node);
+            if let Some(acceleration) = self.scene.body_acceleration(&x, self.time) {
+                force += acceleration * mass;
+            }
+        }
+        force
+    }
 }

@@ -6,25 +6,24 @@ use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
-/// Marks a tile without particles in [`Placement::slots`].
-pub(crate) const EMPTY: u32 = u32::MAX;
+/// Most colours of tiles, those of space.
+const COLOURS: usize = 8;
 
 /// Particles of a scene sorted by tile, and the runs they make.
 ///
-/// Particles keep their order while none leaves its tile, so sorting is stable in both senses and
-/// a restarted run, which sorts anew, finds the order it was saved in.
+/// Tiles have 2^D colours, like a chessboard's two: the windows of tiles of one colour do not
+/// overlap. Particles are sorted by colour first, so that a pass can take one colour after another.
+///
+/// Sorting is stable, and particles keep their order until one leaves the window of the tile it
+/// was sorted by (explicit solver) or that tile (quasi-static solver).
 #[derive(Debug)]
 pub struct Placement<const D: usize> {
     /// Tiles that hold nodes.
     pub tiles: Tiles<D>,
     /// Runs of each body.
     pub runs: Vec<Vec<Run>>,
-    /// For each tile its place among the occupied ones, or [`EMPTY`].
-    slots: Vec<u32>,
-    /// `(body, run)` pairs, grouped by occupied tile.
-    members: Vec<(u32, u32)>,
-    /// First member of each occupied tile, and the end.
-    offsets: Vec<u32>,
+    /// Of each body, where the runs of each colour begin, and the end.
+    colours: Vec<[usize; COLOURS + 1]>,
     /// Present indices of the particles that each condition selects.
     selected: Vec<Vec<u32>>,
     edits: Option<u64>,
@@ -33,6 +32,8 @@ pub struct Placement<const D: usize> {
     keys: Vec<u64>,
     order: Vec<u32>,
     homes: Vec<[i32; D]>,
+    /// Whether `homes` were recalled from a checkpoint.
+    recalled: bool,
 }
 
 impl<const D: usize> Default for Placement<D> {
@@ -40,15 +41,14 @@ impl<const D: usize> Default for Placement<D> {
         Self {
             tiles: Tiles::new(),
             runs: Vec::new(),
-            slots: Vec::new(),
-            members: Vec::new(),
-            offsets: Vec::new(),
+            colours: Vec::new(),
             selected: Vec::new(),
             edits: None,
             moved: false,
             keys: Vec::new(),
             order: Vec::new(),
             homes: Vec::new(),
+            recalled: false,
         }
     }
 }
@@ -82,15 +82,10 @@ impl<const D: usize> Placement<D> {
     /// # Errors
     /// A particle outside the grid, or columns that do not fit one another.
     pub fn update(&mut self, grid: &Grid<D>, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        self.homes.clear();
-        for (body, owner) in scene.bodies().iter().enumerate() {
-            for (index, x) in owner.motion().position.iter().enumerate() {
-                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
-                self.homes.push(tile_of(cell));
-            }
-        }
+        self.find_homes(grid, scene)?;
         self.tiles.rebuild(self.homes.iter().copied());
         self.runs.clear();
+        self.colours.clear();
         let mut first = 0;
         for body in scene.bodies_mut() {
             let count = body.particles().len();
@@ -98,32 +93,82 @@ impl<const D: usize> Placement<D> {
             first += count;
             self.keys.clear();
             let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
-            self.keys.extend(homes.iter().map(|&home| tile_index(home)));
+            let key = |&home| colour(home) << 32 | tile_index(home);
+            self.keys.extend(homes.iter().map(key));
             if !self.keys.is_sorted() {
                 sort_permutation(&self.keys, &mut self.order);
                 body.reorder(&self.order)?;
                 self.keys.sort_unstable();
             }
             self.runs.push(cut_into_runs(&self.keys));
+            let first_key = |colour: usize| (colour as u64) << 32;
+            let run_key = |run: &Run| self.keys[run.start as usize];
+            let runs = self.runs.last().map_or(&[][..], |runs| runs);
+            self.colours.push(std::array::from_fn(|colour| {
+                runs.partition_point(|run| run_key(run) < first_key(colour))
+            }));
         }
-        self.index_members();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
         Ok(())
     }
 
-    /// Runs of an occupied tile (by slot) as `(body, run)`.
-    pub(crate) fn members(&self, slot: usize) -> impl Iterator<Item = (usize, &Run)> {
-        let range = self.offsets[slot] as usize..self.offsets[slot + 1] as usize;
-        self.members[range]
-            .iter()
-            .map(|&(body, run)| (body as usize, &self.runs[body as usize][run as usize]))
+    /// The tile that every particle is sorted by: the one it is in, or the recalled one.
+    fn find_homes(&mut self, grid: &Grid<D>, scene: &Scene<D>) -> Result<(), SolveError> {
+        if std::mem::take(&mut self.recalled) && self.homes.len() == scene.particle_count() {
+            return Ok(());
+        }
+        self.homes.clear();
+        for (body, owner) in scene.bodies().iter().enumerate() {
+            for (index, x) in owner.motion().position.iter().enumerate() {
+                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
+                self.homes.push(tile_of(cell));
+            }
+        }
+        Ok(())
     }
 
-    /// The slot of a tile among the occupied ones, or [`EMPTY`].
-    pub(crate) fn slot(&self, tile: usize) -> u32 {
-        self.slots[tile]
+    /// The tiles that the particles are sorted by, as `(particles, coordinates)` of each run: they
+    /// may have moved on since, and a restarted run is to sum in the same order.
+    pub(crate) fn memory(&self) -> Vec<f64> {
+        let mut memory = Vec::new();
+        for run in self.runs.iter().flatten() {
+            memory.push(run.len() as f64);
+            let coordinates = self.tiles.coordinates(run.tile as usize);
+            memory.extend(coordinates.map(f64::from));
+        }
+        memory
+    }
+
+    /// Takes back what [`memory`](Self::memory) gave, for the next [`update`](Self::update).
+    pub(crate) fn recall(&mut self, memory: &[f64]) {
+        self.homes.clear();
+        for run in memory.chunks_exact(1 + D) {
+            let home = std::array::from_fn(|axis| run[1 + axis] as i32);
+            let count = self.homes.len() + (run[0] as usize).min(Run::MAX);
+            self.homes.resize(count, home);
+        }
+        self.recalled = !self.homes.is_empty();
+        self.edits = None;
+    }
+
+    /// Runs of a body in the tiles of one colour: tiles whose windows do not overlap.
+    pub(crate) fn runs_of_colour(&self, body: usize, colour: usize) -> &[Run] {
+        let bounds = &self.colours[body];
+        &self.runs[body][bounds[colour]..bounds[colour + 1]]
+    }
+
+    /// The tile whose runs hold a particle, by its present index.
+    pub(crate) fn tile_of_row(&self, body: usize, row: u32) -> Option<usize> {
+        let runs = &self.runs[body];
+        let run = runs.partition_point(|run| run.end <= row);
+        runs.get(run).map(|run| run.tile as usize)
+    }
+
+    /// Takes the scene as it is after a step for known.
+    pub(crate) fn accept(&mut self, scene: &Scene<D>) {
+        self.edits = Some(scene.edits());
     }
 
     /// Present indices of the particles that a condition selects in its body.
@@ -138,32 +183,6 @@ impl<const D: usize> Placement<D> {
             .rev()
             .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
         Some(tile * Tiles::<D>::NODES + local)
-    }
-
-    fn index_members(&mut self) {
-        self.slots.clear();
-        self.slots.resize(self.tiles.len(), EMPTY);
-        for (slot, &tile) in self.tiles.occupied().iter().enumerate() {
-            self.slots[tile as usize] = slot as u32;
-        }
-        let mut members: Vec<(u32, u32, u32)> = Vec::new();
-        for (body, runs) in self.runs.iter().enumerate() {
-            let slot = |run: &Run| self.slots[run.tile as usize];
-            let entries = runs.iter().enumerate();
-            members.extend(entries.map(|(i, run)| (slot(run), body as u32, i as u32)));
-        }
-        members.sort_unstable();
-        self.offsets.clear();
-        self.offsets.resize(self.tiles.occupied().len() + 1, 0);
-        for &(slot, ..) in &members {
-            self.offsets[slot as usize + 1] += 1;
-        }
-        for slot in 1..self.offsets.len() {
-            self.offsets[slot] += self.offsets[slot - 1];
-        }
-        self.members.clear();
-        self.members
-            .extend(members.iter().map(|&(_, body, run)| (body, run)));
     }
 
     fn index_selected(&mut self, scene: &Scene<D>) {
@@ -240,6 +259,12 @@ pub(crate) fn check_columns<const D: usize>(scene: &Scene<D>) -> Result<(), Solv
     Ok(())
 }
 
+/// Colour of a tile: whether each of its coordinates is odd.
+fn colour<const D: usize>(tile: [i32; D]) -> u64 {
+    let odd = |axis: usize| ((tile[axis] & 1) as u64) << axis;
+    (0..D).map(odd).sum()
+}
+
 /// Consecutive equal keys in pieces of at most [`Run::MAX`].
 fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
     let mut runs = Vec::new();
@@ -249,7 +274,7 @@ fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
             runs.push(Run {
                 start: start as u32,
                 end: (start + piece.len()) as u32,
-                tile: group[0] as u32,
+                tile: (group[0] & u64::from(u32::MAX)) as u32,
             });
             start += piece.len();
         }

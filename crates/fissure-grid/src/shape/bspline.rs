@@ -21,7 +21,7 @@ impl<const D: usize> Shape<D> for Bspline2 {
         "bspline2"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -52,7 +52,7 @@ impl<const D: usize> Shape<D> for Bspline3 {
         "bspline3"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -77,25 +77,25 @@ impl<const D: usize> Shape<D> for Bspline3 {
 }
 
 /// The nearest node and the ones beside it; `d` is the distance to it in cells.
-#[inline]
+#[inline(always)]
 fn quadratic(t: f64) -> Line<3> {
-    let nearest = i32::from(t >= 0.5);
-    let d = t - f64::from(nearest);
+    let nearest = if t >= 0.5 { 1.0 } else { 0.0 };
+    let d = t - nearest;
     let (below, above) = (0.5 - d, 0.5 + d);
     (
-        nearest - 1,
+        nearest - 1.0,
         [0.5 * below * below, 0.75 - d * d, 0.5 * above * above],
         [-below, -2.0 * d, above],
     )
 }
 
-#[inline]
+#[inline(always)]
 fn cubic(t: f64) -> Line<4> {
     let s = 1.0 - t;
     let (t2, s2) = (t * t, s * s);
     let inner = |square: f64, one: f64| 2.0 / 3.0 - square * (1.0 - 0.5 * one);
     (
-        -1,
+        -1.0,
         [s2 * s / 6.0, inner(t2, t), inner(s2, s), t2 * t / 6.0],
         [
             -0.5 * s2,

@@ -4,7 +4,7 @@ use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::window::window_start;
-use crate::{Grid, Shape, Stencil};
+use crate::{Grid, Shape, Stencil, TILE, WINDOW_START};
 
 /// Corners of a parallelepiped, the most a domain has.
 const MOST_CORNERS: usize = 8;
@@ -32,6 +32,10 @@ pub struct Corners<const D: usize> {
     locals: [SVector<f64, D>; MOST_CORNERS],
     /// R^−T, 1/m.
     rates: SMatrix<f64, D, D>,
+    /// From the particle to the first node of the window, m.
+    arm: SVector<f64, D>,
+    /// Cell width, m.
+    spacing: f64,
 }
 
 impl<const D: usize> Shape<D> for Cpdi {
@@ -64,6 +68,8 @@ impl<const D: usize> Shape<D> for Cpdi {
             bases: [0; MOST_CORNERS],
             locals: [SVector::zeros(); MOST_CORNERS],
             rates,
+            arm: SVector::zeros(),
+            spacing: grid.spacing(),
         };
         for corner in 0..1 << D {
             let at = local + edges * signs(corner);
@@ -75,6 +81,11 @@ impl<const D: usize> Shape<D> for Cpdi {
                     window_start(tile[axis], cell[axis] + offset, 2)? << (3 * axis);
             }
         }
+        // The tile is near now, or some corner would not have been in its window.
+        corners.arm = SVector::from_fn(|axis, _| {
+            let nodes = TILE * tile[axis] + WINDOW_START - cell[axis];
+            (f64::from(nodes) - local[axis]) * grid.spacing()
+        });
         Some(corners)
     }
 
@@ -144,5 +155,11 @@ impl<const D: usize> Stencil<D> for Corners<D> {
     #[inline]
     fn visit_values(&self, mut f: impl FnMut(usize, f64)) {
         self.each(|_, window, weight| f(window, weight * Self::SHARE));
+    }
+
+    #[inline]
+    fn arm(&self, window: usize) -> SVector<f64, D> {
+        let place = SVector::from_fn(|axis, _| (window >> (3 * axis) & 7) as f64);
+        self.arm + place * self.spacing
     }
 }

@@ -23,7 +23,7 @@ impl<const D: usize> Shape<D> for Gimp {
         "gimp"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -51,7 +51,7 @@ impl<const D: usize> Shape<D> for Gimp {
 }
 
 /// Half the edge of the cube of equal volume, m.
-#[inline]
+#[inline(always)]
 fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
     // Almost every lattice is aligned and cubic: no root is needed, and no rounding happens.
     let first = edges[(0, 0)];
@@ -76,16 +76,16 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
 /// Written with the distance `d` to the nearest node, so that small boxes lose no digits, and without branches, which
 /// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
 /// the kink is outside, and the rest of `d` acts as on linear functions.
-#[inline]
+#[inline(always)]
 fn averaged(t: f64, l: f64, inverse: f64) -> Line<3> {
-    let nearest = i32::from(t >= 0.5);
-    let d = t - f64::from(nearest);
+    let nearest = if t >= 0.5 { 1.0 } else { 0.0 };
+    let d = t - nearest;
     let a = d.clamp(-l, l);
     let (below, above) = ((l - a) * inverse, (l + a) * inverse);
     let low = 0.5 * below * (l - a) + (a - d).max(0.0);
     let high = 0.5 * above * (l + a) + (d - a).max(0.0);
     (
-        nearest - 1,
+        nearest - 1.0,
         [low, 1.0 - (low + high), high],
         [-below, below - above, above],
     )

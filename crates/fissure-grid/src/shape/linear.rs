@@ -16,7 +16,7 @@ impl<const D: usize> Shape<D> for Linear {
         "linear"
     }
 
-    #[inline]
+    #[inline(always)]
     fn stencil(
         &self,
         grid: &Grid<D>,
@@ -24,7 +24,7 @@ impl<const D: usize> Shape<D> for Linear {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, |t| (0, [1.0 - t, t], [-1.0, 1.0]))
+        Separable::new(grid, tile, x, |t| (0.0, [1.0 - t, t], [-1.0, 1.0]))
     }
 
     fn reach(&self) -> (i32, i32) {

@@ -1,121 +1,129 @@
 //! Nodes are accelerated and held.
 
-use fissure_grid::Tiles;
+use fissure_grid::FIELD;
 use fissure_scene::{Report, Scene, StepEnergy};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use crate::constraints::Constraints;
-use crate::to_grid::NodeSum;
+use crate::loads::Loads;
+use crate::nodes::{Field, NodeSums, element, vector};
 
-/// Velocities of a node in a step, m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct NodeMotion<const D: usize> {
-    /// Whether any particle gives it mass; else it has no velocity of its own.
-    pub massive: bool,
-    /// At the start of the step, from the particles.
-    pub start: SVector<f64, D>,
+/// Nodal velocities of a step, m/s.
+#[derive(Debug, Default)]
+pub(crate) struct Nodes {
     /// At its end.
-    pub end: SVector<f64, D>,
-    /// What strains the particles: `end`, or the velocity mapped back (MUSL).
-    pub straining: SVector<f64, D>,
-    /// Filtered velocity of XPIC and FMPM.
-    pub filtered: SVector<f64, D>,
+    pub end: Field,
+    /// What the particles' velocities take up, where that is not `end`.
+    pub carried: Field,
+    /// What strains the particles, where that is not `end`.
+    pub straining: Field,
 }
 
-impl<const D: usize> Default for NodeMotion<D> {
-    fn default() -> Self {
-        Self {
-            massive: false,
-            start: SVector::zeros(),
-            end: SVector::zeros(),
-            straining: SVector::zeros(),
-            filtered: SVector::zeros(),
+/// What the nodes are given to move by.
+pub(crate) struct NodeForces<'a, const D: usize> {
+    pub sums: &'a NodeSums<D>,
+    pub loads: &'a Loads<'a, D>,
+    pub constraints: &'a Constraints<D>,
+    /// Mass below which a node feels no force, kg.
+    pub lightest: f64,
+    pub dt: f64,
+}
+
+impl<const D: usize> NodeForces<'_, D> {
+    /// Accelerates the nodes over `dt`, applies the held velocities and books forces and
+    /// energies. With `gains` the change of velocity is kept in `carried`.
+    pub(crate) fn update(&self, nodes: &mut Nodes, scene: &Scene<D>, gains: bool) -> Report<D> {
+        let (sums, dt) = (self.sums, self.dt);
+        nodes.end.resize(sums.len(), Default::default());
+        each_node(&mut nodes.end, |node, end| {
+            let mass = sums.mass(node);
+            let mut velocity = sums.velocity(node);
+            if mass > self.lightest {
+                let force = sums.internal_force(node) + self.loads.at(node, mass);
+                velocity += force * (dt / mass);
+            }
+            *end = element(&velocity, mass > 0.0);
+        });
+        let mut energy = StepEnergy::default();
+        let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
+        for held in &self.constraints.held {
+            let end = &mut nodes.end[held.node];
+            let mass = sums.mass(held.node);
+            let free = vector(end);
+            let velocity = held.apply(&free);
+            *end = element(&velocity, mass > 0.0);
+            let mean = (sums.velocity(held.node) + velocity) * 0.5;
+            let force = (velocity - free) * (mass / dt);
+            energy.external += force.dot(&mean) * dt;
+            for (condition, reaction) in held.reactions(&force) {
+                reactions[condition] += reaction;
+            }
+        }
+        self.book_energy(&nodes.end, &mut energy);
+        if gains {
+            nodes.carried.resize(sums.len(), Default::default());
+            let end = &nodes.end;
+            each_node(&mut nodes.carried, |node, carried| {
+                let gain = vector(&end[node]) - sums.velocity(node);
+                *carried = element(&gain, true);
+            });
+        }
+        Report {
+            step: scene.step() + 1,
+            time: scene.time() + dt,
+            dt,
+            energy,
+            reactions,
+            iterations: 0,
         }
     }
-}
 
-/// Momentum over mass; a node without mass does not move.
-#[inline]
-pub(crate) fn velocity<const D: usize>(sum: &NodeSum<D>) -> SVector<f64, D> {
-    if sum.mass > 0.0 {
-        sum.momentum / sum.mass
-    } else {
-        SVector::zeros()
+    fn book_energy(&self, end: &Field, energy: &mut StepEnergy) {
+        let partial: Vec<StepEnergy> = end
+            .par_chunks(CHUNK)
+            .enumerate()
+            .map(|(chunk, end)| self.chunk_energy(chunk * CHUNK, end))
+            .collect();
+        for part in partial {
+            energy.external += part.external;
+            energy.internal += part.internal;
+            energy.kinetic_grid_start += part.kinetic_grid_start;
+            energy.kinetic_grid_end += part.kinetic_grid_end;
+        }
+    }
+
+    fn chunk_energy(&self, first: usize, end: &[[f64; FIELD]]) -> StepEnergy {
+        let mut energy = StepEnergy::default();
+        for (node, end) in (first..).zip(end) {
+            let mass = self.sums.mass(node);
+            if mass > 0.0 {
+                let end: SVector<f64, D> = vector(end);
+                let start = self.sums.velocity(node);
+                energy.kinetic_grid_start += 0.5 * mass * start.norm_squared();
+                energy.kinetic_grid_end += 0.5 * mass * end.norm_squared();
+                if mass > self.lightest {
+                    let way = (start + end) * (0.5 * self.dt);
+                    energy.external += self.loads.at(node, mass).dot(&way);
+                    energy.internal -= self.sums.internal_force(node).dot(&way);
+                }
+            }
+        }
+        energy
     }
 }
 
-/// Accelerates the nodes over `dt`, applies the held velocities and books forces and energies.
-pub(crate) fn update<const D: usize>(
-    sums: &[NodeSum<D>],
-    motion: &mut Vec<NodeMotion<D>>,
-    constraints: &Constraints<D>,
-    scene: &Scene<D>,
-    lightest: f64,
-    dt: f64,
-) -> Report<D> {
-    motion.resize(sums.len(), NodeMotion::default());
-    motion
-        .par_iter_mut()
-        .with_min_len(Tiles::<D>::NODES)
-        .zip(sums)
-        .for_each(|(node, sum)| {
-            node.massive = sum.mass > 0.0;
-            node.start = velocity(sum);
-            node.end = node.start;
-            if sum.mass > lightest {
-                node.end += (sum.internal_force + sum.external_force) * (dt / sum.mass);
+/// Nodes that a thread works on at a time.
+const CHUNK: usize = 2048;
+
+/// Calls `work` with the number and the element of every node.
+pub(crate) fn each_node<T: Send>(elements: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
+    elements
+        .par_chunks_mut(CHUNK)
+        .enumerate()
+        .for_each(|(chunk, elements)| {
+            for (node, element) in (chunk * CHUNK..).zip(elements) {
+                work(node, element);
             }
         });
-    let mut energy = StepEnergy::default();
-    let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
-    for held in &constraints.held {
-        let (sum, node) = (&sums[held.node], &mut motion[held.node]);
-        let free = node.end;
-        node.end = held.apply(&free);
-        let mean = (node.start + node.end) * 0.5;
-        let force = (node.end - free) * (sum.mass / dt);
-        energy.external += force.dot(&mean) * dt;
-        for (condition, reaction) in held.reactions(&force) {
-            reactions[condition] += reaction;
-        }
-    }
-    let partial: Vec<StepEnergy> = motion
-        .par_chunks(Tiles::<D>::NODES)
-        .zip(sums.par_chunks(Tiles::<D>::NODES))
-        .map(|(motion, sums)| tile_energy(motion, sums, lightest, dt))
-        .collect();
-    for tile in partial {
-        energy.external += tile.external;
-        energy.internal += tile.internal;
-        energy.kinetic_grid_start += tile.kinetic_grid_start;
-        energy.kinetic_grid_end += tile.kinetic_grid_end;
-    }
-    Report {
-        step: scene.step() + 1,
-        time: scene.time() + dt,
-        dt,
-        energy,
-        reactions,
-        iterations: 0,
-    }
-}
-
-fn tile_energy<const D: usize>(
-    motion: &[NodeMotion<D>],
-    sums: &[NodeSum<D>],
-    lightest: f64,
-    dt: f64,
-) -> StepEnergy {
-    let mut energy = StepEnergy::default();
-    for (node, sum) in motion.iter().zip(sums) {
-        energy.kinetic_grid_start += 0.5 * sum.mass * node.start.norm_squared();
-        energy.kinetic_grid_end += 0.5 * sum.mass * node.end.norm_squared();
-        if sum.mass > lightest {
-            let way = (node.start + node.end) * (0.5 * dt);
-            energy.external += sum.external_force.dot(&way);
-            energy.internal -= sum.internal_force.dot(&way);
-        }
-    }
-    energy
 }

@@ -1,18 +1,40 @@
-//! From nodes to particles, run by run.
+//! From nodes to particles and on to the nodes again, tile by tile.
 
-use fissure_grid::{Shape, Stencil};
+use std::hint::black_box;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use fissure_grid::simd::{Lanes, SimdTask};
+use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencil};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
-use fissure_scene::{Body, KernelFailure, Kinematics, Run, RunKernel};
-use nalgebra::{SMatrix, SVector};
+use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, TileKernel};
+use nalgebra::{Matrix3, SMatrix, SVector};
 
-use super::grid_update::NodeMotion;
 use super::settings::Transfer;
-use crate::to_grid::{NodeLookup, Transfers};
+use crate::nodes::{Field, MASSIVE, NodeSums, vector};
+use crate::transfers::{Transfers, add_stress, momentum_gift};
+use crate::window::{WindowNodes, WindowSums};
 
-/// What the kernels of a step share.
+/// What particles give to the nodes at the end of a pass over them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Giving {
+    /// Mass and the momentum they have now, at the place they came from.
+    MomentumBack,
+    /// Mass and momentum, at the place they have moved to.
+    MomentumOn,
+    /// Mass, the momentum they came with, and internal force, at the place they came from.
+    AllBack,
+    /// Mass, momentum and internal force, at the place they have moved to.
+    AllOn,
+}
+
+/// What the kernels of a pass share.
 pub(crate) struct StepKernel<'a, S, const D: usize> {
     pub transfers: &'a Transfers<'a, S, D>,
-    pub nodes: &'a [NodeMotion<D>],
+    /// What moves and strains the particles.
+    pub field: &'a Field,
+    /// What their velocity takes up, if that is another field.
+    pub carried: Option<&'a Field>,
+    pub sums: &'a NodeSums<D>,
     pub half_edges: SMatrix<f64, D, D>,
     pub transfer: Transfer,
     /// `D⁻¹` of APIC on splines, 1/m²; without it the affine part is the velocity gradient.
@@ -20,156 +42,329 @@ pub(crate) struct StepKernel<'a, S, const D: usize> {
     pub dt: f64,
     /// Whether positions and velocities are moved.
     pub moves: bool,
-    /// Whether the deformation gradient follows `straining`.
+    /// Whether the deformation gradient follows the field.
     pub strains: bool,
     /// Whether the velocities are those the particles came here with (stress first): the gradient
     /// is then one at the end of the motion, `F ← (1 − Δt L)⁻¹ F`, else one at its start,
     /// `F ← (1 + Δt L) F`. With the other one a spinning body grows or shrinks.
     pub backward: bool,
+    pub giving: Giving,
+    /// Set when a particle has left its tile's window, so that it could give nothing.
+    pub strayed: &'a AtomicBool,
 }
 
 impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
-    fn gather(
+    fn on_tile(
         &self,
+        tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        match D {
+            2 => self.on_tile_of::<64, 65>(tile as usize, work),
+            _ => self.on_tile_of::<512, 513>(tile as usize, work),
+        }
+    }
+}
+
+impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
+    fn on_tile_of<const N: usize, const PADDED: usize>(
+        &self,
+        tile: usize,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        let tiles = &self.transfers.placement.tiles;
+        let nodes = WindowNodes::new(tiles, tile);
+        let mut field = [[0.0; FIELD]; PADDED];
+        nodes.load(self.field, &mut field);
+        let carried = self.carried.map(|carried| {
+            let mut values = [[0.0; FIELD]; PADDED];
+            nodes.load(carried, &mut values);
+            values
+        });
+        let mut sums = WindowSums::<N>::zero();
+        let done = work(&mut Tile {
+            pass: self,
+            coordinates: tiles.coordinates(tile),
+            field: field.as_flattened(),
+            carried: carried.as_ref().map(|values| values.as_flattened()),
+            sums: &mut sums.0,
+        });
+        nodes.add(&sums.0, self.sums);
+        done
+    }
+
+    fn is_affine(&self) -> bool {
+        self.transfer == Transfer::Apic
+    }
+}
+
+/// A pass at work on a tile.
+struct Tile<'a, S, const D: usize> {
+    pass: &'a StepKernel<'a, S, D>,
+    coordinates: [i32; D],
+    field: &'a [f64],
+    carried: Option<&'a [f64]>,
+    sums: &'a mut [[f64; SUMS]],
+}
+
+impl<S: Shape<D>, const D: usize> TileKernel<D> for Tile<'_, S, D> {
+    fn gather(
+        &mut self,
         run: &Run,
+        constants: &RunConstants<'_>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
-        let tiles = &self.transfers.placement.tiles;
-        let lookup = NodeLookup::new(tiles, run.tile as usize);
-        let coordinates = tiles.coordinates(run.tile as usize);
-        for row in 0..old.len() {
-            let f = Body::<D>::in_space(&old.deformation_gradient[row]);
-            let domain = self.transfers.shape.domain(&self.half_edges, &f);
-            let stencil = self
+        let pass = self.pass;
+        let affine = pass.moves && pass.is_affine();
+        let moments = affine && pass.affine_inverse.is_some();
+        let gradients = pass.strains || affine;
+        let gathered = match (gradients, moments) {
+            (_, true) => pass
                 .transfers
-                .shape
-                .stencil(
-                    self.transfers.grid,
-                    coordinates,
-                    &old.position[row],
-                    &domain,
-                )
-                .ok_or(KernelFailure { row })?;
-            if self.moves {
-                self.move_particle(row, &stencil, &lookup, old, new);
-                if !self.transfers.grid.contains(&new.position[row]) {
-                    return Err(KernelFailure { row });
+                .simd
+                .run(GatherRun::<'_, '_, '_, '_, S, D, true, true> {
+                    tile: self,
+                    constants,
+                    old,
+                    new,
+                }),
+            (true, false) => {
+                pass.transfers
+                    .simd
+                    .run(GatherRun::<'_, '_, '_, '_, S, D, true, false> {
+                        tile: self,
+                        constants,
+                        old,
+                        new,
+                    })
+            }
+            (false, false) => {
+                pass.transfers
+                    .simd
+                    .run(GatherRun::<'_, '_, '_, '_, S, D, false, false> {
+                        tile: self,
+                        constants,
+                        old,
+                        new,
+                    })
+            }
+        };
+        gathered.map_err(|row| KernelFailure {
+            index: run.start as usize + row,
+        })
+    }
+
+    fn scatter(
+        &mut self,
+        _run: &Run,
+        constants: &RunConstants<'_>,
+        old: &MotionSlices<'_, D>,
+        new: &MotionSlices<'_, D>,
+    ) {
+        if self.pass.giving == Giving::MomentumBack {
+            // Given while its weights were at hand.
+            return;
+        }
+        let simd = self.pass.transfers.simd;
+        if self.pass.is_affine() {
+            simd.run(ScatterRun::<'_, '_, '_, S, D, true> {
+                tile: self,
+                constants,
+                old,
+                new,
+            });
+        } else {
+            simd.run(ScatterRun::<'_, '_, '_, S, D, false> {
+                tile: self,
+                constants,
+                old,
+                new,
+            });
+        }
+    }
+}
+
+struct GatherRun<'t, 'a, 'c, 'n, S, const D: usize, const GRADIENT: bool, const MOMENT: bool> {
+    tile: &'t mut Tile<'a, S, D>,
+    constants: &'c RunConstants<'c>,
+    old: &'c MotionSlices<'c, D>,
+    new: &'c mut MotionSlicesMut<'n, D>,
+}
+
+impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> SimdTask
+    for GatherRun<'_, '_, '_, '_, S, D, GRADIENT, MOMENT>
+{
+    /// The row of a particle that reaches off the grid or its tile's window.
+    type Output = Result<(), usize>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
+        let Self {
+            tile,
+            constants,
+            old,
+            new,
+        } = self;
+        let pass = tile.pass;
+        for row in 0..old.len() {
+            let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
+            let stencil = pass
+                .transfers
+                .stencil_at(&pass.half_edges, tile.coordinates, x, f)
+                .ok_or(row)?;
+            // Kept from the compiler, which else sinks each sum into the branch that uses it and
+            // spills everything they share.
+            let gathered = black_box(stencil.gather::<L, GRADIENT, MOMENT>(lanes, tile.field));
+            if pass.moves {
+                let carried = tile.carried.map(|carried| {
+                    vector(&stencil.gather::<L, false, false>(lanes, carried).value)
+                });
+                pass.move_particle(row, &gathered, carried, old, new);
+                if !pass.transfers.grid.contains(&new.position[row]) {
+                    return Err(row);
                 }
             }
-            if self.strains {
-                self.strain_particle(row, &stencil, &lookup, old, new);
+            if pass.strains {
+                new.deformation_gradient[row] = pass.strained(&gathered, x, f);
+            }
+            if pass.giving == Giving::MomentumBack {
+                let affine = if MOMENT || GRADIENT {
+                    new.affine.get(row)
+                } else {
+                    None
+                };
+                let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
+                if affine.is_some() {
+                    stencil.scatter::<L, false, true>(lanes, &gift, tile.sums);
+                } else {
+                    stencil.scatter::<L, false, false>(lanes, &gift, tile.sums);
+                }
             }
         }
         Ok(())
     }
 }
 
+struct ScatterRun<'t, 'a, 'c, S, const D: usize, const AFFINE: bool> {
+    tile: &'t mut Tile<'a, S, D>,
+    constants: &'c RunConstants<'c>,
+    old: &'c MotionSlices<'c, D>,
+    new: &'c MotionSlices<'c, D>,
+}
+
+impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
+    for ScatterRun<'_, '_, '_, S, D, AFFINE>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self {
+            tile,
+            constants,
+            old,
+            new,
+        } = self;
+        let pass = tile.pass;
+        let back = pass.giving == Giving::AllBack;
+        let place = if back { old } else { new };
+        // Straining alone leaves the velocities of the trial as they were.
+        let velocity = if back { old } else { new };
+        let forces = pass.giving != Giving::MomentumOn;
+        for row in 0..new.len() {
+            let x = &place.position[row];
+            // Without motion or strain in this pass the trial holds them from the pass before.
+            let f = &place.deformation_gradient[row];
+            let stencil = pass
+                .transfers
+                .stencil_at(&pass.half_edges, tile.coordinates, x, f);
+            let Some(stencil) = stencil else {
+                pass.strayed.store(true, Relaxed);
+                continue;
+            };
+            let affine = if AFFINE {
+                velocity.affine.get(row)
+            } else {
+                None
+            };
+            let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
+            if forces {
+                let volume = constants.volume[row] * new.deformation_gradient[row].determinant();
+                let stress = &new.stress[row];
+                add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
+                stencil.scatter::<L, true, AFFINE>(lanes, &gift, tile.sums);
+            } else {
+                stencil.scatter::<L, false, AFFINE>(lanes, &gift, tile.sums);
+            }
+        }
+    }
+}
+
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
+    #[inline(always)]
     fn move_particle(
         &self,
         row: usize,
-        stencil: &S::Stencil,
-        lookup: &NodeLookup<D>,
+        gathered: &Gathered<D>,
+        carried: Option<SVector<f64, D>>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) {
-        let (mut end, mut gain, mut filtered) =
-            (SVector::zeros(), SVector::zeros(), SVector::zeros());
-        stencil.visit_values(|entry, weight| {
-            let node = &self.nodes[lookup.node(entry)];
-            end += node.end * weight;
-            gain += (node.end - node.start) * weight;
-            filtered += node.filtered * weight;
-        });
+        let end: SVector<f64, D> = vector(&gathered.value);
         new.position[row] = old.position[row] + end * self.dt;
-        new.velocity[row] = match self.transfer {
-            Transfer::Flip { pic } => (old.velocity[row] + gain) * (1.0 - pic) + end * pic,
-            Transfer::Pic | Transfer::Apic => end,
-            Transfer::Xpic { .. } => filtered + gain,
-            Transfer::Fmpm { .. } => filtered,
+        new.velocity[row] = match (self.transfer, carried) {
+            (Transfer::Flip { pic }, Some(gain)) => {
+                (old.velocity[row] + gain) * (1.0 - pic) + end * pic
+            }
+            (_, Some(filtered)) => filtered,
+            (_, None) => end,
         };
-        if self.transfer == Transfer::Apic {
-            new.affine[row] = self.affine(row, stencil, lookup, old);
+        if self.is_affine() {
+            new.affine[row] = match self.affine_inverse {
+                Some(inverse) => SMatrix::from_fn(|i, j| gathered.moment[j][i] * inverse),
+                None => gradient(gathered),
+            };
         }
     }
 
-    fn affine(
+    #[inline(always)]
+    fn strained(
         &self,
-        row: usize,
-        stencil: &S::Stencil,
-        lookup: &NodeLookup<D>,
-        old: &MotionSlices<'_, D>,
-    ) -> SMatrix<f64, D, D> {
-        let mut affine = SMatrix::zeros();
-        match self.affine_inverse {
-            Some(inverse) => {
-                let grid = self.transfers.grid;
-                let lowest = lookup.lowest_node(grid);
-                stencil.visit_values(|entry, weight| {
-                    let node = &self.nodes[lookup.node(entry)];
-                    let arm = lookup.node_position(grid, lowest, entry) - old.position[row];
-                    affine += node.end * arm.transpose() * (weight * inverse);
-                });
-            }
-            None => {
-                let mut mean = SVector::zeros();
-                stencil.visit_values(|entry, weight| {
-                    mean += self.nodes[lookup.node(entry)].end * weight;
-                });
-                // As in `strain_particle`: a node without mass moves with the particle.
-                stencil.visit(|entry, _, gradient| {
-                    let node = &self.nodes[lookup.node(entry)];
-                    if node.massive {
-                        affine += (node.end - mean) * gradient.transpose();
-                    }
-                });
-            }
-        }
-        affine
-    }
-
-    fn strain_particle(
-        &self,
-        row: usize,
-        stencil: &S::Stencil,
-        lookup: &NodeLookup<D>,
-        old: &MotionSlices<'_, D>,
-        new: &mut MotionSlicesMut<'_, D>,
-    ) {
-        let axisymmetric = self.transfers.kinematics == Kinematics::Axisymmetric;
-        let mut velocity = SVector::zeros();
-        stencil.visit_values(|entry, weight| {
-            velocity += self.nodes[lookup.node(entry)].straining * weight;
-        });
-        let mut gradient_sum: SMatrix<f64, D, D> = SMatrix::zeros();
-        stencil.visit(|entry, _, gradient| {
-            let node = &self.nodes[lookup.node(entry)];
-            // Σ∇N = 0, so the mean may be taken off; a node without mass (N = 0 but ∇N ≠ 0, on the
-            // face of a cell) then moves with the particle.
-            if node.massive {
-                gradient_sum += (node.straining - velocity) * gradient.transpose();
-            }
-        });
-        let change = gradient_sum * self.dt;
+        gathered: &Gathered<D>,
+        x: &SVector<f64, D>,
+        f_old: &Matrix3<f64>,
+    ) -> Matrix3<f64> {
+        let change = gradient(gathered) * self.dt;
         let mut step = SMatrix::<f64, D, D>::identity() + change;
-        let mut hoop = 1.0 + self.dt * velocity[0] / old.position[row][0];
-        if self.backward {
-            step = (SMatrix::<f64, D, D>::identity() - change)
-                .try_inverse()
-                .unwrap_or(step);
-            hoop = 1.0 / (2.0 - hoop);
-        }
-        let f_old = &old.deformation_gradient[row];
         let mut f = *f_old;
+        if self.backward {
+            let inverse = (SMatrix::<f64, D, D>::identity() - change).try_inverse();
+            step = inverse.unwrap_or(step);
+        }
         for i in 0..D {
             for j in 0..3 {
                 f[(i, j)] = (0..D).map(|k| step[(i, k)] * f_old[(k, j)]).sum();
             }
         }
-        if axisymmetric {
-            f.m33 *= hoop;
+        if self.transfers.kinematics == Kinematics::Axisymmetric {
+            let hoop = 1.0 + self.dt * gathered.value[0] / x[0];
+            f.m33 *= if self.backward {
+                1.0 / (2.0 - hoop)
+            } else {
+                hoop
+            };
         }
-        new.deformation_gradient[row] = f;
+        f
     }
+}
+
+/// Velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node without
+/// mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
+#[inline(always)]
+fn gradient<const D: usize>(gathered: &Gathered<D>) -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|i, j| {
+        let column = &gathered.gradient[j];
+        column[i] - gathered.value[i] * column[MASSIVE]
+    })
 }

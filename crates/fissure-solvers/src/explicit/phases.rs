@@ -1,106 +1,135 @@
-//! The phases of an explicit step that touch particles.
+//! The passes over particles of an explicit step.
+
+use std::sync::atomic::AtomicBool;
 
 use fissure_grid::Shape;
-use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId, Particles};
-use fissure_scene::{
-    Body, KernelFailure, Run, RunKernel, Scene, SolveError, SweepSettings, SweepTotals, Viscosity,
-};
+use fissure_scene::{Body, Report, Scene, SolveError, SweepSettings, SweepTotals, Viscosity};
 use nalgebra::SVector;
 
 use super::filter::{Held, filter};
-use super::grid_update::{NodeMotion, velocity};
-use super::kernels::StepKernel;
+use super::grid_update::{NodeForces, Nodes, each_node};
+use super::kernels::{Giving, StepKernel};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
-use crate::loads::add_loads;
+use crate::loads::Loads;
+use crate::nodes::{Field, NodeSums, element, vector};
 use crate::placement::outside;
-use crate::to_grid::{Gift, StressForce, Sums, Transfers};
+use crate::transfers::{Transfers, add_stress, momentum_gift};
+
+/// Share of the mean particle mass below which a node holds round-off and feels no force.
+const NO_MASS: f64 = 1e-16;
 
 /// What the phases of one step share.
 pub(crate) struct Phases<'a, S, const D: usize> {
     pub transfers: Transfers<'a, S, D>,
     pub constraints: &'a Constraints<D>,
     pub settings: &'a ExplicitSettings,
-    pub viscosity: Option<Viscosity>,
     pub dt: f64,
     /// Number of the step, counted from 1.
     pub step: u64,
     /// Time at its start, s.
     pub time: f64,
+    pub strayed: &'a AtomicBool,
+}
+
+/// One pass over all particles.
+#[derive(Clone, Copy)]
+pub(crate) struct Pass<'f> {
+    /// What moves and strains the particles.
+    pub field: &'f Field,
+    /// What their velocity takes up, if that is another field.
+    pub carried: Option<&'f Field>,
+    pub moves: bool,
+    pub strains: bool,
+    pub giving: Giving,
+}
+
+/// Mass, momentum and internal force of the particles as they are: what the passes of a step leave
+/// at the nodes for the next, made afresh.
+pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
+    transfers: &Transfers<'_, S, D>,
+    settings: &ExplicitSettings,
+    scene: &Scene<D>,
+    sums: &mut NodeSums<D>,
+) -> Result<(), SolveError> {
+    let affine = settings.transfer == Transfer::Apic;
+    let forces = settings.stress_update != StressUpdate::First;
+    let give = |body: &Body<D>, i: usize| {
+        let particles = body.particles();
+        let motion = &particles.motion;
+        // A column that an earlier solver left is not this one's.
+        let column = if affine { motion.affine.get(i) } else { None };
+        let mut gift = momentum_gift(particles.mass[i], &motion.velocity[i], column);
+        if forces {
+            let volume = particles.volume[i] * motion.deformation_gradient[i].determinant();
+            let (stress, x) = (&motion.stress[i], &motion.position[i]);
+            add_stress(&mut gift, transfers.kinematics, stress, volume, x);
+        }
+        gift
+    };
+    let spread = if affine {
+        transfers.spread::<true>(scene, sums, give)
+    } else {
+        transfers.spread::<false>(scene, sums, give)
+    };
+    spread.map_err(|(body, index)| outside(scene, body, index))
 }
 
 impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
-    /// Mass, momentum and forces to the nodes; the stress is the present or (`trial`) the new one.
-    pub(crate) fn to_grid(
-        &self,
-        scene: &Scene<D>,
-        sums: &mut Sums<D>,
-        trial: bool,
-    ) -> Result<(), SolveError> {
-        let (time, kinematics) = (self.time, self.transfers.kinematics);
-        self.transfers
-            .to_grid(scene, sums, |body, i, _, _| {
-                let particles = body.particles();
-                let stressed = if trial {
-                    &particles.trial
-                } else {
-                    &particles.motion
-                };
-                let jacobian = stressed.deformation_gradient[i].determinant();
-                let x = &particles.motion.position[i];
-                let acceleration = scene.body_acceleration(x, time);
-                let volume = particles.volume[i] * jacobian;
-                let force = StressForce::new(kinematics, &stressed.stress[i], volume, x);
-                Gift {
-                    stress: Some(force),
-                    acceleration: acceleration.unwrap_or_else(SVector::zeros),
-                    ..self.momentum(particles, i, false)
-                }
-            })
-            .and_then(|()| add_loads(&self.transfers, scene, sums, time))
-            .map_err(|(body, index)| outside(scene, body, index))
-    }
-
-    /// Maps the particles' present (or, `trial`, moved) velocities to the nodes: what strains.
-    pub(crate) fn strain_by_particle_velocities(
-        &self,
-        scene: &Scene<D>,
-        scratch: &mut Sums<D>,
-        nodes: &mut Vec<NodeMotion<D>>,
-        trial: bool,
-    ) -> Result<(), SolveError> {
-        self.transfers
-            .to_grid(scene, scratch, |body, i, _, _| {
-                self.momentum(body.particles(), i, trial)
-            })
-            .map_err(|(body, index)| outside(scene, body, index))?;
-        nodes.resize(scratch.nodes.len(), NodeMotion::default());
-        for (node, sum) in nodes.iter_mut().zip(&scratch.nodes) {
-            node.massive = sum.mass > 0.0;
-            node.straining = velocity(sum);
-        }
+    /// Held velocities of the sums' momenta: what strains in the schemes with the stress first and
+    /// MUSL.
+    pub(crate) fn straining(&self, sums: &NodeSums<D>, straining: &mut Field) {
+        straining.resize(sums.len(), Default::default());
+        each_node(straining, |node, v| {
+            *v = element(&sums.velocity(node), sums.mass(node) > 0.0);
+        });
         for held in &self.constraints.held {
-            let node = &mut nodes[held.node];
-            node.straining = held.apply(&node.straining);
+            let velocity = held.apply(&vector(&straining[held.node]));
+            straining[held.node] = element(&velocity, sums.mass(held.node) > 0.0);
         }
-        Ok(())
     }
 
-    /// Filtered nodal velocities, if the transfer wants them; what holding them takes is added to
-    /// the `reactions` of the conditions, N.
+    /// Accelerates and holds the nodes.
+    pub(crate) fn move_nodes(
+        &self,
+        scene: &Scene<D>,
+        sums: &NodeSums<D>,
+        nodes: &mut Nodes,
+    ) -> Result<Report<D>, SolveError> {
+        let loads = Loads::new(&self.transfers, scene, self.time)
+            .map_err(|(body, index)| outside(scene, body, index))?;
+        let forces = NodeForces {
+            sums,
+            loads: &loads,
+            constraints: self.constraints,
+            lightest: self.settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
+            dt: self.dt,
+        };
+        let gains = matches!(
+            self.settings.transfer,
+            Transfer::Flip { .. } | Transfer::Xpic { .. }
+        );
+        Ok(forces.update(nodes, scene, gains))
+    }
+
+    /// What the particles' velocities take up, by XPIC or FMPM, in `nodes.carried`; what holding
+    /// the terms takes is added to the `reactions` of the conditions, N.
     pub(crate) fn filter(
         &self,
         scene: &Scene<D>,
-        scratch: &mut Sums<D>,
-        nodes: &mut [NodeMotion<D>],
+        sums: &mut NodeSums<D>,
+        nodes: &mut Nodes,
         reactions: &mut [SVector<f64, D>],
     ) -> Result<(), SolveError> {
         let transfers = &self.transfers;
-        let start = |node: &NodeMotion<D>| node.start;
-        let end = |node: &NodeMotion<D>| node.end;
-        match self.settings.transfer {
+        let filtered = match self.settings.transfer {
             Transfer::Xpic { order } => {
-                filter(transfers, scene, scratch, nodes, order, start, None)
+                let mut start = Field::new();
+                start.resize(sums.len(), Default::default());
+                each_node(&mut start, |node, v| {
+                    *v = element(&sums.velocity(node), true);
+                });
+                filter(transfers, scene, sums, start, order, None)
             }
             Transfer::Fmpm { order } => {
                 let mut impulses = vec![SVector::zeros(); reactions.len()];
@@ -108,135 +137,120 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                     constraints: self.constraints,
                     impulses: &mut impulses,
                 };
-                let done = filter(transfers, scene, scratch, nodes, order, end, Some(held));
+                let end = nodes.end.clone();
+                let filtered = filter(transfers, scene, sums, end, order, Some(held));
                 for (reaction, impulse) in reactions.iter_mut().zip(&impulses) {
                     *reaction += impulse / self.dt;
                 }
-                done
+                filtered
             }
-            _ => Ok(()),
+            _ => return Ok(()),
+        };
+        let filtered = filtered.map_err(|(body, index)| outside(scene, body, index))?;
+        if matches!(self.settings.transfer, Transfer::Xpic { .. }) {
+            // The change of velocity is carried beside what the filter left of the old one.
+            each_node(&mut nodes.carried, |node, carried| {
+                for (sum, number) in carried.iter_mut().zip(&filtered[node]) {
+                    *sum += number;
+                }
+            });
+        } else {
+            nodes.carried = filtered;
         }
-        .map_err(|(body, index)| outside(scene, body, index))
+        Ok(())
     }
 
-    /// New deformation gradients from the nodes (and the motion, if `moves`), then the law.
+    /// A pass that calls the law on every particle.
     pub(crate) fn sweep(
         &self,
         scene: &mut Scene<D>,
-        nodes: &[NodeMotion<D>],
-        moves: bool,
+        sums: &mut NodeSums<D>,
+        pass: Pass<'_>,
     ) -> Result<SweepTotals, SolveError> {
+        sums.clear(self.transfers.placement.tiles.node_count());
+        let Transfers {
+            shape,
+            grid,
+            placement,
+            ..
+        } = self.transfers;
         let mut totals = SweepTotals::default();
-        for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
-            let kernel = self.kernel(body, nodes, moves, true);
-            let Transfers { shape, grid, .. } = self.transfers;
-            let sweep = SweepSettings {
-                dt: self.dt,
-                band: self.settings.band.band(shape, grid, body),
-                viscosity: self.viscosity,
-            };
-            let part = body
-                .sweep(&self.transfers.placement.runs[index], &kernel, &sweep)
-                .map_err(|failure| failure.at(body, self.step, self.time))?;
-            totals = totals.merge(part);
+        for colour in 0..1 << D {
+            for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
+                let kernel = self.kernel(body, sums, pass);
+                let sweep = SweepSettings {
+                    dt: self.dt,
+                    band: self.settings.band.band(shape, grid, body),
+                    viscosity: self.viscosity(),
+                };
+                let part = body
+                    .sweep(placement.runs_of_colour(index, colour), &kernel, &sweep)
+                    .map_err(|failure| failure.at(body, self.step, self.time))?;
+                totals = totals.merge(part);
+            }
         }
         Ok(totals)
     }
 
-    /// Moves the particles without calling the law.
+    /// A pass without the law.
     pub(crate) fn move_particles(
         &self,
         scene: &mut Scene<D>,
-        nodes: &[NodeMotion<D>],
+        sums: &mut NodeSums<D>,
+        pass: Pass<'_>,
     ) -> Result<(), SolveError> {
-        let mut failed = None;
-        for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
-            let kernel = self.kernel(body, nodes, true, false);
-            let Particles {
-                id, motion, trial, ..
-            } = body.particles_with_trial();
-            let runs = &self.transfers.placement.runs[index];
-            if let Err((_, row)) = move_runs(runs, &kernel, id, motion.slices(), trial.slices_mut())
-            {
-                failed = Some((index, row));
-                break;
+        let placement = self.transfers.placement;
+        sums.clear(placement.tiles.node_count());
+        for colour in 0..1 << D {
+            for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
+                let kernel = self.kernel(body, sums, pass);
+                body.move_runs(placement.runs_of_colour(index, colour), &kernel)
+                    .map_err(|failure| failure.at(body, self.step, self.time))?;
             }
         }
-        failed.map_or(Ok(()), |(body, index)| Err(outside(scene, body, index)))
+        Ok(())
     }
 
     fn kernel<'b>(
         &'b self,
         body: &Body<D>,
-        nodes: &'b [NodeMotion<D>],
-        moves: bool,
-        strains: bool,
+        sums: &'b NodeSums<D>,
+        pass: Pass<'b>,
     ) -> StepKernel<'b, S, D> {
         let Transfers { shape, grid, .. } = self.transfers;
         StepKernel {
             transfers: &self.transfers,
-            nodes,
+            field: pass.field,
+            carried: pass.carried,
+            sums,
             half_edges: *body.half_edges(),
             transfer: self.settings.transfer,
             affine_inverse: shape.affine_inverse(grid.spacing()),
             dt: self.dt,
-            moves,
-            strains,
+            moves: pass.moves,
+            strains: pass.strains,
             backward: self.settings.stress_update == StressUpdate::First,
+            giving: pass.giving,
+            strayed: self.strayed,
         }
     }
 
-    /// Mass and momentum of a particle, with its present or its trial velocity.
-    fn momentum(&self, particles: &Particles<D>, i: usize, trial: bool) -> Gift<D> {
-        let motion = if trial {
-            &particles.trial
-        } else {
-            &particles.motion
-        };
-        let affine = match self.settings.transfer {
-            Transfer::Apic => motion.affine.get(i).copied(),
-            // A column that an earlier solver left is not this one's.
-            _ => None,
-        };
-        Gift {
-            mass: particles.mass[i],
-            velocity: motion.velocity[i],
-            affine,
-            stress: None,
-            acceleration: SVector::zeros(),
-        }
+    fn viscosity(&self) -> Option<Viscosity> {
+        let length = self.transfers.grid.spacing();
+        self.settings
+            .viscosity
+            .map(|(linear, quadratic)| Viscosity {
+                linear,
+                quadratic,
+                length,
+            })
     }
 }
 
-/// Halves the runs until one is left; the error is the failing particle with the lowest id.
-fn move_runs<const D: usize>(
-    runs: &[Run],
-    kernel: &dyn RunKernel<D>,
-    ids: &[ParticleId],
-    old: MotionSlices<'_, D>,
-    mut new: MotionSlicesMut<'_, D>,
-) -> Result<(), (ParticleId, usize)> {
-    match runs {
-        [] => Ok(()),
-        [run] => kernel
-            .gather(run, &old, &mut new)
-            .map_err(|failure: KernelFailure| {
-                let KernelFailure { row } = failure.lowest(kernel, run, ids, &old, &mut new);
-                let index = run.start as usize + row;
-                (ids[index], index)
-            }),
-        _ => {
-            let (left, right) = runs.split_at(runs.len() / 2);
-            let row = (right[0].start - left[0].start) as usize;
-            let ((old_a, old_b), (new_a, new_b)) = (old.split_at(row), new.split_at(row));
-            let (a, b) = rayon::join(
-                || move_runs(left, kernel, ids, old_a, new_a),
-                || move_runs(right, kernel, ids, old_b, new_b),
-            );
-            match (a, b) {
-                (Err(a), Err(b)) => Err(a.min(b)),
-                (a, b) => a.and(b),
-            }
-        }
-    }
+fn mean_particle_mass<const D: usize>(scene: &Scene<D>) -> f64 {
+    let bodies = scene.bodies().iter();
+    let mass: f64 = bodies
+        .map(|body| body.particles().mass.iter().sum::<f64>())
+        .sum();
+    mass / scene.particle_count() as f64
 }

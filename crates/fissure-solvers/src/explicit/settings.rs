@@ -1,5 +1,6 @@
 //! Choices of the explicit solver.
 
+use fissure_grid::simd::Simd;
 use fissure_scene::SolveError;
 
 use crate::band::BandSource;
@@ -46,6 +47,13 @@ pub enum Transfer {
     },
 }
 
+impl Transfer {
+    /// Whether particles take up another nodal field than the velocity they move with.
+    pub(crate) fn carries(&self) -> bool {
+        !matches!(self, Self::Pic | Self::Apic)
+    }
+}
+
 /// Choices of the explicit solver; `Default` is FLIP with MUSL at 0.4 of the Courant limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExplicitSettings {
@@ -64,6 +72,8 @@ pub struct ExplicitSettings {
     /// need it. With the stress first or last and linear functions, 1e-6 or so keeps nodes that
     /// hold next to nothing from running off.
     pub mass_cutoff: f64,
+    /// Vector unit to compute transfers on; the widest of the machine unless one wants to compare.
+    pub simd: Simd,
 }
 
 impl Default for ExplicitSettings {
@@ -75,6 +85,7 @@ impl Default for ExplicitSettings {
             viscosity: None,
             band: BandSource::default(),
             mass_cutoff: 0.0,
+            simd: Simd::widest(),
         }
     }
 }

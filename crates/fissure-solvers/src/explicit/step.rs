@@ -1,17 +1,19 @@
 //! One explicit step, phase by phase.
 
-use fissure_grid::{Grid, Shape};
-use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals, Viscosity};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use super::grid_update::{self, NodeMotion};
-use super::phases::Phases;
+use fissure_grid::{Grid, Shape};
+use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
+use rayon::prelude::*;
+
+use super::grid_update::Nodes;
+use super::kernels::Giving;
+use super::phases::{Pass, Phases, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
+use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until};
-use crate::to_grid::{Sums, Transfers};
-
-/// Share of the mean particle mass below which a node holds round-off and feels no force.
-const NO_MASS: f64 = 1e-16;
+use crate::transfers::Transfers;
 
 /// Explicit material-point solver on a grid with a shape function.
 #[derive(Debug)]
@@ -21,9 +23,12 @@ pub struct Explicit<S, const D: usize> {
     settings: ExplicitSettings,
     placement: Placement<D>,
     constraints: Constraints<D>,
-    sums: Sums<D>,
-    scratch: Sums<D>,
-    nodes: Vec<NodeMotion<D>>,
+    sums: NodeSums<D>,
+    /// Whether the last step left the particles' sums at the nodes.
+    summed: bool,
+    /// Whether a particle has left its tile's window.
+    strayed: AtomicBool,
+    nodes: Nodes,
     /// Fastest wave plus fastest particle, m/s; `None` before the first step.
     fastest: Option<f64>,
     /// Whether `fastest` was recalled from a checkpoint and the scene restored after.
@@ -43,9 +48,10 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             settings,
             placement: Placement::default(),
             constraints: Constraints::default(),
-            sums: Sums::default(),
-            scratch: Sums::default(),
-            nodes: Vec::new(),
+            sums: NodeSums::default(),
+            summed: false,
+            strayed: AtomicBool::new(false),
+            nodes: Nodes::default(),
             fastest: None,
             recalled: false,
         })
@@ -63,9 +69,11 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
 
     /// Sorts if a particle left its tile; checks a scene that its user changed.
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        if self.placement.is_current(scene) {
+        let strayed = std::mem::take(self.strayed.get_mut());
+        if !strayed && !self.placement.is_edited(scene) {
             return Ok(());
         }
+        self.summed = false;
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
                 self.fastest = None;
@@ -81,7 +89,8 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
         self.placement.update(&self.grid, scene)?;
         if self.fastest.is_none() {
             let waves = scene.bodies().iter().map(Body::wave_speed);
-            self.fastest = Some(waves.fold(0.0, f64::max) + fastest_particle(scene));
+            let (_, fastest) = kinetic_energy_and_speed(scene);
+            self.fastest = Some(waves.fold(0.0, f64::max) + fastest);
         }
         Ok(())
     }
@@ -102,10 +111,30 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
     }
 }
 
-fn fastest_particle<const D: usize>(scene: &Scene<D>) -> f64 {
-    let velocities = scene.bodies().iter().map(|body| body.motion().velocity);
-    let squares = velocities.flatten().map(|v| v.norm_squared());
-    squares.fold(0.0, f64::max).sqrt()
+/// Particles whose energies a thread sums at a time.
+const CHUNK: usize = 4096;
+
+/// Kinetic energy of the particles, J, and the speed of the fastest, m/s.
+fn kinetic_energy_and_speed<const D: usize>(scene: &Scene<D>) -> (f64, f64) {
+    let (mut kinetic, mut square): (f64, f64) = (0.0, 0.0);
+    for body in scene.bodies() {
+        let (mass, velocity) = (&body.particles().mass, body.motion().velocity);
+        let chunks = mass.par_chunks(CHUNK).zip(velocity.par_chunks(CHUNK));
+        let parts: Vec<(f64, f64)> = chunks
+            .map(|(mass, velocity)| {
+                let squares = velocity.iter().map(|v| v.norm_squared());
+                let add = |(energy, most): (f64, f64), (m, v): (&f64, f64)| {
+                    (energy + 0.5 * m * v, most.max(v))
+                };
+                mass.iter().zip(squares).fold((0.0, 0.0), add)
+            })
+            .collect();
+        for (energy, most) in parts {
+            kinetic += energy;
+            square = square.max(most);
+        }
+    }
+    (kinetic, square.sqrt())
 }
 
 impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
@@ -120,8 +149,8 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             placement,
             constraints,
             sums,
-            scratch,
             nodes,
+            strayed,
             ..
         } = self;
         // Nodes are held at the velocities of the end of the step.
@@ -133,45 +162,60 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                 shape,
                 placement,
                 kinematics: scene.kinematics(),
+                simd: settings.simd,
             },
             constraints,
             settings,
-            viscosity: settings.viscosity.map(|(linear, quadratic)| Viscosity {
-                linear,
-                quadratic,
-                length: grid.spacing(),
-            }),
             dt,
             step: scene.step() + 1,
             time: scene.time(),
+            strayed,
         };
+        if !std::mem::take(&mut self.summed) {
+            to_grid(&phases.transfers, settings, scene, sums)?;
+        }
 
         let mut totals = SweepTotals::default();
-        let stress_first = settings.stress_update == StressUpdate::First;
-        if stress_first {
-            phases.strain_by_particle_velocities(scene, scratch, nodes, false)?;
-            totals = phases.sweep(scene, nodes, false)?;
+        let stress_update = settings.stress_update;
+        if stress_update == StressUpdate::First {
+            phases.straining(sums, &mut nodes.straining);
+            let pass = Pass {
+                field: &nodes.straining,
+                carried: None,
+                moves: false,
+                strains: true,
+                giving: Giving::AllBack,
+            };
+            totals = phases.sweep(scene, sums, pass)?;
         }
-        phases.to_grid(scene, sums, stress_first)?;
-        let mut report = grid_update::update(
-            &sums.nodes,
-            nodes,
-            constraints,
-            scene,
-            settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
-            dt,
-        );
-        phases.filter(scene, scratch, nodes, &mut report.reactions)?;
-        match settings.stress_update {
-            StressUpdate::First => phases.move_particles(scene, nodes)?,
+        let mut report = phases.move_nodes(scene, sums, nodes)?;
+        phases.filter(scene, sums, nodes, &mut report.reactions)?;
+        let mut pass = Pass {
+            field: &nodes.end,
+            carried: settings.transfer.carries().then_some(&nodes.carried),
+            moves: true,
+            strains: false,
+            giving: Giving::MomentumOn,
+        };
+        match stress_update {
+            StressUpdate::First => phases.move_particles(scene, sums, pass)?,
             StressUpdate::Last => {
-                nodes.iter_mut().for_each(|node| node.straining = node.end);
-                totals = phases.sweep(scene, nodes, true)?;
+                pass.strains = true;
+                pass.giving = Giving::AllOn;
+                totals = phases.sweep(scene, sums, pass)?;
             }
             StressUpdate::Musl => {
-                phases.move_particles(scene, nodes)?;
-                phases.strain_by_particle_velocities(scene, scratch, nodes, true)?;
-                totals = phases.sweep(scene, nodes, false)?;
+                pass.giving = Giving::MomentumBack;
+                phases.move_particles(scene, sums, pass)?;
+                phases.straining(sums, &mut nodes.straining);
+                let pass = Pass {
+                    field: &nodes.straining,
+                    carried: None,
+                    moves: false,
+                    strains: true,
+                    giving: Giving::AllOn,
+                };
+                totals = phases.sweep(scene, sums, pass)?;
             }
         }
 
@@ -179,33 +223,32 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         for body in scene.bodies_mut() {
             body.commit()?;
         }
-        placement.note_moves(grid, scene);
-        self.fastest = Some(totals.wave_speed + fastest_particle(scene));
+        self.summed = !*strayed.get_mut();
+        let (kinetic, fastest) = kinetic_energy_and_speed(scene);
+        self.fastest = Some(totals.wave_speed + fastest);
         report.energy = StepEnergy {
             stored: totals.stored,
             dissipated: totals.dissipated,
             viscous: totals.viscous,
-            kinetic_particles: scene.bodies().iter().map(Body::kinetic_energy).sum(),
+            kinetic_particles: kinetic,
             ..report.energy
         };
         scene.record(&report);
+        self.placement.accept(scene);
         Ok(report)
     }
 
     fn memory(&self) -> Vec<f64> {
-        self.fastest.into_iter().collect()
+        let mut memory: Vec<f64> = self.fastest.into_iter().collect();
+        if !self.strayed.load(Relaxed) {
+            memory.extend(self.placement.memory());
+        }
+        memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
         self.fastest = memory.first().copied();
         self.recalled = self.fastest.is_some();
+        self.placement.recall(memory.get(1..).unwrap_or(&[]));
     }
-}
-
-fn mean_particle_mass<const D: usize>(scene: &Scene<D>) -> f64 {
-    let bodies = scene.bodies().iter();
-    let mass: f64 = bodies
-        .map(|body| body.particles().mass.iter().sum::<f64>())
-        .sum();
-    mass / scene.particle_count() as f64
 }

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::freedoms::{Freedoms, NONE};
 use super::sparse::{Singular, SparseSystem};
-use crate::to_grid::{NodeLookup, Transfers};
+use crate::transfers::Transfers;
+use crate::window::WindowNodes;
 
 /// A weight, or a gradient times the spacing, below this is round-off of a node that is not reached.
 const REACHED: f64 = 1e-14;
@@ -59,7 +60,7 @@ impl<const D: usize> Assembly<D> {
             for run in &placement.runs[body_index] {
                 self.runs.push((body_index, *run, self.starts.len()));
                 let tile = run.tile as usize;
-                let lookup = NodeLookup::new(&placement.tiles, tile);
+                let nodes = WindowNodes::new(&placement.tiles, tile);
                 let coordinates = placement.tiles.coordinates(tile);
                 for index in run.start as usize..run.end as usize {
                     let stencil = transfers.stencil(body, coordinates, index);
@@ -68,7 +69,7 @@ impl<const D: usize> Assembly<D> {
                     self.starts.push(first as u32);
                     stencil.visit(|entry, weight, gradient| {
                         if weight > REACHED || gradient.amax() * spacing > REACHED {
-                            add_link(&mut self.links, first, lookup.node(entry), weight, gradient);
+                            add_link(&mut self.links, first, nodes.node(entry), weight, gradient);
                         }
                     });
                 }

@@ -1,6 +1,6 @@
 //! The forces of a step: what the trial stresses do to the nodes, and what they leave unbalanced.
 
-use fissure_grid::Shape;
+use fissure_grid::{Gift, Shape};
 use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
@@ -10,8 +10,9 @@ use super::freedoms::{Freedoms, NONE};
 use super::kernel::DisplacementKernel;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
-use crate::loads::add_loads;
-use crate::to_grid::{Gift, StressForce, Sums, Transfers};
+use crate::loads::Loads;
+use crate::nodes::NodeSums;
+use crate::transfers::{Transfers, add_stress, momentum_gift};
 
 /// Trial motion, stresses and tangents for nodal displacements.
 pub(super) fn strain<S: Shape<D>, const D: usize>(
@@ -45,25 +46,30 @@ pub(super) fn strain<S: Shape<D>, const D: usize>(
     Ok(totals)
 }
 
-/// Mass, momentum (for the predictor), body forces and loads at the nodes.
+/// Masses and momenta at the nodes.
+pub(super) fn momenta<S: Shape<D>, const D: usize>(
+    transfers: &Transfers<'_, S, D>,
+    scene: &Scene<D>,
+    sums: &mut NodeSums<D>,
+) -> Result<(), (usize, usize)> {
+    transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
+        let particles = body.particles();
+        momentum_gift(particles.mass[i], &particles.motion.velocity[i], None)
+    })
+}
+
+/// Body forces and loads at the nodes, N, from their masses.
 pub(super) fn external_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    sums: &mut Sums<D>,
+    masses: &NodeSums<D>,
     time: f64,
-) -> Result<(), (usize, usize)> {
-    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
-        let particles = body.particles();
-        let acceleration = scene.body_acceleration(&particles.motion.position[i], time);
-        Gift {
-            mass: particles.mass[i],
-            velocity: particles.motion.velocity[i],
-            affine: None,
-            stress: None,
-            acceleration: acceleration.unwrap_or_else(SVector::zeros),
-        }
-    })?;
-    add_loads(transfers, scene, sums, time)
+) -> Result<Vec<SVector<f64, D>>, (usize, usize)> {
+    let loads = Loads::new(transfers, scene, time)?;
+    let nodes = 0..masses.len();
+    Ok(nodes
+        .map(|node| loads.at(node, masses.mass(node)))
+        .collect())
 }
 
 /// When internal forces are wanted.
@@ -79,10 +85,10 @@ pub(super) enum At {
 pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    sums: &mut Sums<D>,
+    sums: &mut NodeSums<D>,
     at: At,
 ) -> Result<(), (usize, usize)> {
-    transfers.to_grid(scene, sums, |body: &Body<D>, i, _, _| {
+    transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
         let particles = body.particles();
         let motion = match at {
             At::Start => &particles.motion,
@@ -91,40 +97,37 @@ pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
         let f_new = &motion.deformation_gradient[i];
         let f_old = &particles.motion.deformation_gradient[i];
         let volume = particles.volume[i] * f_new.determinant();
-        let mut stress = StressForce::new(
-            transfers.kinematics,
-            &motion.stress[i],
-            volume,
-            &motion.position[i],
-        );
-        stress.on_gradient *= relative::<D>(f_new, f_old);
-        Gift {
-            mass: 0.0,
-            velocity: SVector::zeros(),
-            affine: None,
-            stress: Some(stress),
-            acceleration: SVector::zeros(),
+        let (stress, x) = (&motion.stress[i], &motion.position[i]);
+        let mut gift = Gift::default();
+        add_stress(&mut gift, transfers.kinematics, stress, volume, x);
+        // Gradients at the end of the step from those at its start.
+        let at_start = gift.gradient;
+        let relative = relative::<D>(f_new, f_old);
+        for (j, gradient) in gift.gradient.iter_mut().enumerate() {
+            for (c, number) in gradient.iter_mut().enumerate() {
+                *number = (0..D).map(|k| at_start[k][c] * relative[(k, j)]).sum();
+            }
         }
+        gift
     })
 }
 
 /// Unbalanced force of every equation, its norm, and the norm of the reactions and loads.
 pub(super) fn residual<const D: usize>(
     freedoms: &Freedoms<D>,
-    internal: &Sums<D>,
-    external: &Sums<D>,
+    internal: &NodeSums<D>,
+    external: &[SVector<f64, D>],
 ) -> (Vec<f64>, f64, f64) {
     let mut right = vec![0.0; freedoms.count];
-    let (mut unbalanced, mut reaction) = (0.0, 0.0);
-    let sums = internal.nodes.iter().zip(&external.nodes);
-    for (node, (internal, external)) in freedoms.nodes.iter().zip(sums) {
-        let force = internal.internal_force + external.external_force;
+    let (mut unbalanced, mut reaction): (f64, f64) = (0.0, 0.0);
+    for ((number, node), external) in freedoms.nodes.iter().enumerate().zip(external) {
+        let force = internal.internal_force(number) + external;
         for (direction, &equation) in node.directions.iter().zip(&node.equations) {
             let component = direction.dot(&force);
             if equation != NONE {
                 right[equation as usize] = component;
                 unbalanced += component * component;
-                let load = direction.dot(&external.external_force);
+                let load = direction.dot(external);
                 reaction += load * load;
             } else {
                 reaction += component * component;
@@ -138,13 +141,12 @@ pub(super) fn residual<const D: usize>(
 pub(super) fn reactions<const D: usize>(
     scene: &Scene<D>,
     constraints: &Constraints<D>,
-    internal: &Sums<D>,
-    external: &Sums<D>,
+    internal: &NodeSums<D>,
+    external: &[SVector<f64, D>],
 ) -> Vec<SVector<f64, D>> {
     let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
     for held in &constraints.held {
-        let unbalanced =
-            internal.nodes[held.node].internal_force + external.nodes[held.node].external_force;
+        let unbalanced = internal.internal_force(held.node) + external[held.node];
         for (condition, reaction) in held.reactions(&-unbalanced) {
             reactions[condition] += reaction;
         }
@@ -152,10 +154,16 @@ pub(super) fn reactions<const D: usize>(
     reactions
 }
 
+/// Internal forces of all nodes, N.
+pub(super) fn forces<const D: usize>(internal: &NodeSums<D>) -> Vec<SVector<f64, D>> {
+    let nodes = 0..internal.len();
+    nodes.map(|node| internal.internal_force(node)).collect()
+}
+
 /// Work of nodal forces over the step, J: mean of start and end, times the way.
 pub(super) fn work<const D: usize>(
     before: &[SVector<f64, D>],
-    now: impl Iterator<Item = SVector<f64, D>>,
+    now: &[SVector<f64, D>],
     displacement: &[SVector<f64, D>],
 ) -> f64 {
     let forces = before.iter().zip(now);

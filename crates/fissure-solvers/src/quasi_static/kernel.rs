@@ -2,10 +2,11 @@
 
 use fissure_grid::{Shape, Stencil};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
-use fissure_scene::{Body, KernelFailure, Kinematics, Run, RunKernel};
+use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, TileKernel};
 use nalgebra::{SMatrix, SVector};
 
-use crate::to_grid::{NodeLookup, Transfers};
+use crate::transfers::Transfers;
+use crate::window::WindowNodes;
 
 /// Moves and strains particles by the displacement increments of the nodes.
 pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
@@ -17,31 +18,52 @@ pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
 }
 
 impl<S: Shape<D>, const D: usize> RunKernel<D> for DisplacementKernel<'_, S, D> {
-    fn gather(
+    fn on_tile(
         &self,
+        tile: u32,
+        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+    ) -> Result<(), KernelFailure> {
+        let tiles = &self.transfers.placement.tiles;
+        work(&mut Tile {
+            step: self,
+            nodes: WindowNodes::new(tiles, tile as usize),
+            coordinates: tiles.coordinates(tile as usize),
+        })
+    }
+}
+
+struct Tile<'a, S, const D: usize> {
+    step: &'a DisplacementKernel<'a, S, D>,
+    nodes: WindowNodes<D>,
+    coordinates: [i32; D],
+}
+
+impl<S: Shape<D>, const D: usize> TileKernel<D> for Tile<'_, S, D> {
+    fn gather(
+        &mut self,
         run: &Run,
+        _constants: &RunConstants<'_>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
-        let Transfers {
-            grid,
-            shape,
-            placement,
-            kinematics,
-        } = self.transfers;
-        let lookup = NodeLookup::new(&placement.tiles, run.tile as usize);
-        let tile = placement.tiles.coordinates(run.tile as usize);
+        let DisplacementKernel {
+            transfers,
+            displacement,
+            half_edges,
+            dt,
+        } = self.step;
         for row in 0..old.len() {
-            let f_old = &old.deformation_gradient[row];
-            let domain = shape.domain(&self.half_edges, &Body::<D>::in_space(f_old));
-            let x = &old.position[row];
-            let stencil = shape
-                .stencil(grid, tile, x, &domain)
-                .ok_or(KernelFailure { row })?;
+            let failure = KernelFailure {
+                index: run.start as usize + row,
+            };
+            let (x, f_old) = (&old.position[row], &old.deformation_gradient[row]);
+            let stencil = transfers
+                .stencil_at(half_edges, self.coordinates, x, f_old)
+                .ok_or(failure)?;
             let mut way = SVector::zeros();
             let mut gradient_sum: SMatrix<f64, D, D> = SMatrix::zeros();
             stencil.visit(|entry, weight, gradient| {
-                let u = self.displacement[lookup.node(entry)];
+                let u = displacement[self.nodes.node(entry)];
                 way += u * weight;
                 gradient_sum += u * gradient.transpose();
             });
@@ -53,17 +75,17 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for DisplacementKernel<'_, S, D> 
                     }
                 }
             }
-            if *kinematics == Kinematics::Axisymmetric {
+            if transfers.kinematics == Kinematics::Axisymmetric {
                 f.m33 *= 1.0 + way[0] / x[0];
             }
             new.deformation_gradient[row] = f;
             new.position[row] = x + way;
-            new.velocity[row] = way / self.dt;
+            new.velocity[row] = way / *dt;
             if let Some(affine) = new.affine.get_mut(row) {
-                *affine = gradient_sum / self.dt;
+                *affine = gradient_sum / *dt;
             }
-            if !grid.contains(&new.position[row]) {
-                return Err(KernelFailure { row });
+            if !transfers.grid.contains(&new.position[row]) {
+                return Err(failure);
             }
         }
         Ok(())

@@ -1,17 +1,20 @@
 //! One load step: Newton's method, cut and retried until it converges.
 
-use fissure_grid::{Grid, Shape};
+use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use nalgebra::SVector;
 
 use super::assembly::Assembly;
-use super::balance::{At, external_forces, internal_forces, reactions, residual, strain, work};
+use super::balance::{
+    At, external_forces, forces, internal_forces, momenta, reactions, residual, strain, work,
+};
 use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
+use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
-use crate::to_grid::{Sums, Transfers};
+use crate::transfers::Transfers;
 
 /// Quasi-static material-point solver on a grid with a shape function.
 pub struct QuasiStatic<S, const D: usize> {
@@ -22,8 +25,7 @@ pub struct QuasiStatic<S, const D: usize> {
     constraints: Constraints<D>,
     freedoms: Freedoms<D>,
     assembly: Assembly<D>,
-    external: Sums<D>,
-    internal: Sums<D>,
+    internal: NodeSums<D>,
     displacement: Vec<SVector<f64, D>>,
     tangents: Vec<Vec<Tangent>>,
     /// Length of the next step, s.
@@ -78,8 +80,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             constraints: Constraints::default(),
             freedoms: Freedoms::default(),
             assembly: Assembly::default(),
-            external: Sums::default(),
-            internal: Sums::default(),
+            internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
             next_step: settings.step,
@@ -119,7 +120,6 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             constraints,
             freedoms,
             assembly,
-            external,
             internal,
             displacement,
             tangents,
@@ -132,6 +132,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             shape,
             placement,
             kinematics: scene.kinematics(),
+            simd: Simd::widest(),
         };
         let off_grid = |scene: &Scene<D>, (body, index): (usize, usize)| {
             Failed::Refused(outside(scene, body, index))
@@ -144,31 +145,23 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .map_err(|failed| off_grid(scene, failed))?;
         let reached = assembly.reached(placement.tiles.node_count());
         freedoms.number(reached.len(), |node| reached[node], constraints);
-        external_forces(&transfers, scene, external, scene.time())
-            .map_err(|failed| off_grid(scene, failed))?;
-        let before_loads: Vec<SVector<f64, D>> = external
-            .nodes
-            .iter()
-            .map(|sum| sum.external_force)
-            .collect();
-        external_forces(&transfers, scene, external, end)
-            .map_err(|failed| off_grid(scene, failed))?;
-        internal_forces(&transfers, scene, internal, At::Start)
-            .map_err(|failed| off_grid(scene, failed))?;
-        let before_stresses: Vec<SVector<f64, D>> = internal
-            .nodes
-            .iter()
-            .map(|sum| sum.internal_force)
-            .collect();
+        // The sums hold the internal forces afterwards.
+        momenta(&transfers, scene, internal).map_err(|failed| off_grid(scene, failed))?;
+        let external_at = |time| {
+            external_forces(&transfers, scene, internal, time)
+                .map_err(|failed| off_grid(scene, failed))
+        };
+        let before_loads = external_at(scene.time())?;
+        let external = external_at(end)?;
 
         displacement.clear();
-        displacement.extend(external.nodes.iter().map(|sum| {
-            if predict && sum.mass > 0.0 {
-                sum.momentum * (dt / sum.mass)
-            } else {
-                SVector::zeros()
-            }
+        displacement.extend((0..internal.len()).map(|node| match predict {
+            true => internal.velocity(node) * dt,
+            false => SVector::zeros(),
         }));
+        internal_forces(&transfers, scene, internal, At::Start)
+            .map_err(|failed| off_grid(scene, failed))?;
+        let before_stresses = forces(internal);
         let mut held = vec![SVector::zeros(); displacement.len()];
         for node in &constraints.held {
             let present = displacement[node.node] / dt;
@@ -184,7 +177,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 .map_err(Failed::Refused)?;
             internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
-            let (mut right, residual, reaction) = residual(freedoms, internal, external);
+            let (mut right, residual, reaction) = residual(freedoms, internal, &external);
             // Of this state and of the steps accepted before, not of iterates that were left.
             let scale = force_scale.max(reaction);
             error = residual / if scale > 0.0 { scale } else { 1.0 };
@@ -193,14 +186,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
             if placed && error <= settings.tolerance {
-                let loads = external.nodes.iter().map(|sum| sum.external_force);
-                let stresses = internal.nodes.iter().map(|sum| sum.internal_force);
                 return Ok(Equilibrium {
                     totals,
-                    reactions: reactions(scene, constraints, internal, external),
+                    reactions: reactions(scene, constraints, internal, &external),
                     iterations: iteration,
-                    load_work: work(&before_loads, loads, displacement),
-                    internal_work: -work(&before_stresses, stresses, displacement),
+                    load_work: work(&before_loads, &external, displacement),
+                    internal_work: -work(&before_stresses, &forces(internal), displacement),
                     force_scale: scale,
                 });
             }
@@ -278,6 +269,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             iterations: equilibrium.iterations,
         };
         scene.record(&report);
+        self.placement.accept(scene);
         Ok(report)
     }
 }

@@ -1,0 +1,258 @@
+//! From particles to nodes without the law in between, and what every transfer needs.
+//!
+//! A tile's particles are summed into a window on the stack of one thread and the window is added
+//! to the nodes. Tiles are worked on colour by colour: those of a colour have no node in common,
+//! so every sum has one order and the same bits on any number of threads.
+
+use fissure_grid::simd::{Lanes, Simd, SimdTask};
+use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencil};
+use fissure_scene::{Body, Kinematics, Run, Scene, for_each_tile};
+use fissure_tensor::Sym;
+use nalgebra::{SMatrix, SVector};
+
+use crate::nodes::{Field, NodeSums};
+use crate::placement::Placement;
+use crate::window::{WindowNodes, WindowSums};
+
+/// The discretisation of a scene: everything a transfer needs besides the particles' numbers.
+pub(crate) struct Transfers<'a, S, const D: usize> {
+    pub grid: &'a Grid<D>,
+    pub shape: &'a S,
+    pub placement: &'a Placement<D>,
+    pub kinematics: Kinematics,
+    pub simd: Simd,
+}
+
+/// Mass and momentum of a particle.
+#[inline(always)]
+pub(crate) fn momentum_gift<const D: usize>(
+    mass: f64,
+    velocity: &SVector<f64, D>,
+    affine: Option<&SMatrix<f64, D, D>>,
+) -> Gift<D> {
+    let mut gift = Gift::default();
+    for i in 0..D {
+        gift.value[i] = mass * velocity[i];
+    }
+    gift.value[NodeSums::<D>::MASS] = mass;
+    if let Some(affine) = affine {
+        for (moment, column) in gift.moment.iter_mut().zip(affine.column_iter()) {
+            for i in 0..D {
+                moment[i] = mass * column[i];
+            }
+        }
+    }
+    gift
+}
+
+/// Adds the internal force of a stress: `−V (σ·∇N + σ_θθ N e_r / r)`, N.
+#[inline(always)]
+pub(crate) fn add_stress<const D: usize>(
+    gift: &mut Gift<D>,
+    kinematics: Kinematics,
+    stress: &Sym,
+    volume: f64,
+    x: &SVector<f64, D>,
+) {
+    let full = stress.to_matrix();
+    for (j, gradient) in gift.gradient.iter_mut().enumerate() {
+        for i in 0..D {
+            gradient[NodeSums::<D>::FORCE + i] = -volume * full[(i, j)];
+        }
+    }
+    if kinematics == Kinematics::Axisymmetric {
+        gift.value[NodeSums::<D>::FORCE] = -volume * stress.zz() / x[0];
+    }
+}
+
+impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
+    /// Stencil of a particle at the start of the step.
+    #[inline]
+    pub(crate) fn stencil(
+        &self,
+        body: &Body<D>,
+        tile: [i32; D],
+        index: usize,
+    ) -> Option<S::Stencil> {
+        let motion = &body.particles().motion;
+        self.stencil_at(
+            body.half_edges(),
+            tile,
+            &motion.position[index],
+            &motion.deformation_gradient[index],
+        )
+    }
+
+    /// Stencil of a particle at `x` with the deformation gradient `f`.
+    #[inline(always)]
+    pub(crate) fn stencil_at(
+        &self,
+        half_edges: &SMatrix<f64, D, D>,
+        tile: [i32; D],
+        x: &SVector<f64, D>,
+        f: &nalgebra::Matrix3<f64>,
+    ) -> Option<S::Stencil> {
+        let domain = self.shape.domain(half_edges, &Body::<D>::in_space(f));
+        self.shape.stencil(self.grid, tile, x, &domain)
+    }
+
+    /// Sums to the nodes what `give` says of every particle, by value, gradient and (`MOMENT`)
+    /// weighted arm.
+    ///
+    /// # Errors
+    /// Body and index of a particle that reaches off the grid.
+    pub(crate) fn spread<const MOMENT: bool>(
+        &self,
+        scene: &Scene<D>,
+        sums: &mut NodeSums<D>,
+        give: impl Fn(&Body<D>, usize) -> Gift<D> + Sync,
+    ) -> Result<(), (usize, usize)> {
+        self.each_tile(scene, sums, &|body_index, runs, sums| match D {
+            2 => self.spread_tile::<64, MOMENT>(scene, body_index, runs, sums, &give),
+            _ => self.spread_tile::<512, MOMENT>(scene, body_index, runs, sums, &give),
+        })
+    }
+
+    fn spread_tile<const N: usize, const MOMENT: bool>(
+        &self,
+        scene: &Scene<D>,
+        body_index: usize,
+        runs: &[Run],
+        sums: &NodeSums<D>,
+        give: &(impl Fn(&Body<D>, usize) -> Gift<D> + Sync),
+    ) -> Result<(), (usize, usize)> {
+        let tiles = &self.placement.tiles;
+        let tile = runs[0].tile as usize;
+        let mut window = WindowSums::<N>::zero();
+        let task = SpreadRuns::<'_, S, _, D, MOMENT> {
+            transfers: self,
+            body: &scene.bodies()[body_index],
+            tile: tiles.coordinates(tile),
+            runs,
+            give,
+            window: &mut window.0,
+        };
+        self.simd.run(task).map_err(|index| (body_index, index))?;
+        WindowNodes::new(tiles, tile).add(&window.0, sums);
+        Ok(())
+    }
+
+    /// Takes a nodal field to the particles and sums their masses times it back: `S⁺S v`, as mass
+    /// and momentum.
+    ///
+    /// # Errors
+    /// As [`spread`](Self::spread).
+    pub(crate) fn relay(
+        &self,
+        scene: &Scene<D>,
+        field: &Field,
+        sums: &mut NodeSums<D>,
+    ) -> Result<(), (usize, usize)> {
+        self.each_tile(scene, sums, &|body_index, runs, sums| match D {
+            2 => self.relay_tile::<64, 65>(scene, body_index, runs, field, sums),
+            _ => self.relay_tile::<512, 513>(scene, body_index, runs, field, sums),
+        })
+    }
+
+    fn relay_tile<const N: usize, const PADDED: usize>(
+        &self,
+        scene: &Scene<D>,
+        body_index: usize,
+        runs: &[Run],
+        field: &Field,
+        sums: &NodeSums<D>,
+    ) -> Result<(), (usize, usize)> {
+        let tiles = &self.placement.tiles;
+        let tile = runs[0].tile as usize;
+        let nodes = WindowNodes::new(tiles, tile);
+        let mut values = [[0.0; FIELD]; PADDED];
+        nodes.load(field, &mut values);
+        let mut window = WindowSums::<N>::zero();
+        let task = RelayRuns {
+            transfers: self,
+            body: &scene.bodies()[body_index],
+            tile: tiles.coordinates(tile),
+            runs,
+            values: values.as_flattened(),
+            window: &mut window.0,
+        };
+        self.simd.run(task).map_err(|index| (body_index, index))?;
+        nodes.add(&window.0, sums);
+        Ok(())
+    }
+
+    /// Clears the sums and calls `work` on every tile of every body, colour by colour.
+    fn each_tile(
+        &self,
+        scene: &Scene<D>,
+        sums: &mut NodeSums<D>,
+        work: &(impl Fn(usize, &[Run], &NodeSums<D>) -> Result<(), (usize, usize)> + Sync),
+    ) -> Result<(), (usize, usize)> {
+        sums.clear(self.placement.tiles.node_count());
+        let sums = &*sums;
+        for colour in 0..1 << D {
+            for body in 0..scene.bodies().len() {
+                let runs = self.placement.runs_of_colour(body, colour);
+                for_each_tile(runs, &|runs| work(body, runs, sums))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+struct SpreadRuns<'a, S, G, const D: usize, const MOMENT: bool> {
+    transfers: &'a Transfers<'a, S, D>,
+    body: &'a Body<D>,
+    tile: [i32; D],
+    runs: &'a [Run],
+    give: &'a G,
+    window: &'a mut [[f64; SUMS]],
+}
+
+impl<S: Shape<D>, G: Fn(&Body<D>, usize) -> Gift<D>, const D: usize, const MOMENT: bool> SimdTask
+    for SpreadRuns<'_, S, G, D, MOMENT>
+{
+    type Output = Result<(), usize>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
+        for run in self.runs {
+            for index in run.start as usize..run.end as usize {
+                let stencil = self.transfers.stencil(self.body, self.tile, index);
+                let gift = (self.give)(self.body, index);
+                let stencil = stencil.ok_or(index)?;
+                stencil.scatter::<L, true, MOMENT>(lanes, &gift, self.window);
+            }
+        }
+        Ok(())
+    }
+}
+
+struct RelayRuns<'a, S, const D: usize> {
+    transfers: &'a Transfers<'a, S, D>,
+    body: &'a Body<D>,
+    tile: [i32; D],
+    runs: &'a [Run],
+    values: &'a [f64],
+    window: &'a mut [[f64; SUMS]],
+}
+
+impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
+    type Output = Result<(), usize>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
+        let particles = self.body.particles();
+        for run in self.runs {
+            for index in run.start as usize..run.end as usize {
+                let stencil = self.transfers.stencil(self.body, self.tile, index);
+                let stencil = stencil.ok_or(index)?;
+                let value = stencil.gather::<L, false, false>(lanes, self.values).value;
+                let v = SVector::from_fn(|axis, _| value[axis]);
+                let gift = momentum_gift(particles.mass[index], &v, None);
+                stencil.scatter::<L, false, false>(lanes, &gift, self.window);
+            }
+        }
+        Ok(())
+    }
+}

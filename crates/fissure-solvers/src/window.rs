@@ -1,0 +1,76 @@
+//! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
+
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, window_map};
+
+use crate::nodes::NodeSums;
+
+/// Where the nodes of a tile's window are.
+pub(crate) struct WindowNodes<const D: usize> {
+    /// First node of each of the tiles around.
+    bases: [usize; 27],
+    map: &'static [(u8, u8)],
+}
+
+impl<const D: usize> WindowNodes<D> {
+    pub(crate) fn new(tiles: &Tiles<D>, tile: usize) -> Self {
+        let mut bases = [0; 27];
+        for (base, &around) in bases.iter_mut().zip(tiles.around(tile)) {
+            *base = around as usize * Tiles::<D>::NODES;
+        }
+        Self {
+            bases,
+            map: window_map::<D>(),
+        }
+    }
+
+    /// Node of a window entry.
+    #[inline]
+    pub(crate) fn node(&self, entry: usize) -> usize {
+        let (neighbour, local) = self.map[entry];
+        self.bases[neighbour as usize] + local as usize
+    }
+
+    /// Calls `row(entry, node, count)` for each stretch of entries whose nodes stand side by side.
+    #[inline(always)]
+    fn rows(&self, mut row: impl FnMut(usize, usize, usize)) {
+        // Two nodes of the tile below along axis 0, four of the tile itself, two of the one above.
+        for start in (0..self.map.len()).step_by(WINDOW as usize) {
+            for (offset, count) in [(0, 2), (2, 4), (6, 2)] {
+                row(start + offset, self.node(start + offset), count);
+            }
+        }
+    }
+
+    /// Copies a field's numbers; the entry beyond the last is left as it is.
+    #[inline]
+    pub(crate) fn load(&self, field: &[[f64; FIELD]], window: &mut [[f64; FIELD]]) {
+        self.rows(|entry, node, count| {
+            window[entry..entry + count].copy_from_slice(&field[node..node + count]);
+        });
+    }
+
+    /// Adds what was summed in the window to the nodes; those that no particle reached are left
+    /// out.
+    #[inline]
+    pub(crate) fn add(&self, window: &[[f64; SUMS]], sums: &NodeSums<D>) {
+        self.rows(|entry, node, count| {
+            for i in 0..count {
+                let numbers = &window[entry + i];
+                // Zeros of both signs have no other bits.
+                if numbers.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 != 0 {
+                    sums.add(node + i, numbers);
+                }
+            }
+        });
+    }
+}
+
+/// Sums of a window, aligned so that a node's numbers lie in one cache line.
+#[repr(align(64))]
+pub(crate) struct WindowSums<const N: usize>(pub [[f64; SUMS]; N]);
+
+impl<const N: usize> WindowSums<N> {
+    pub(crate) fn zero() -> Self {
+        Self([[0.0; SUMS]; N])
+    }
+}
