@@ -279,6 +279,10 @@ impl<E: DamageEvolution> Material for ScalarDamage<E> {
         self.check_width(band.max_width(), scale)
     }
 
+    fn started_width(&self, old: &ScalarDamageState, new: &ScalarDamageState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
     fn density(&self) -> f64 {
         self.elastic.density
     }

@@ -320,6 +320,11 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         Ok(())
     }
 
+    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
+        let started = new.planes().iter().skip(old.planes().len());
+        started.map(|plane| plane.width).fold(0.0, f64::max)
+    }
+
     fn isotropic(&self) -> bool {
         self.decohesion.isotropic()
     }
