@@ -109,7 +109,7 @@ pub(super) const ORTHOTROPIC: Entry = Entry {
             1.5e3,
         ),
     ],
-    plane_stress: true,
+    plane_stress: false,
     build: |values, space| {
         let elastic = orthotropic(values);
         let mode = |strength: &str, toughness: &str| Mode {
