@@ -354,6 +354,10 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         self.check_width(width, scale)
     }
 
+    fn started_width(&self, old: &AnisotropicDamageState, new: &AnisotropicDamageState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
     /// Of the two planes that are equal in shear a rule on axes takes one.
     fn isotropic(&self) -> bool {
         self.onset == Onset::Tension

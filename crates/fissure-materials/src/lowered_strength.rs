@@ -143,6 +143,7 @@ impl<M: Material> Material for LoweredStrength<M> {
     const HYPERELASTIC: bool = M::HYPERELASTIC;
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
+    const PLANE: bool = M::PLANE;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -152,6 +153,14 @@ impl<M: Material> Material for LoweredStrength<M> {
     /// Refuses what the law inside refuses for another reason than a wide band.
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
         self.factor(band, scale).map(|_| ())
+    }
+
+    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
+        self.0.started_width(&old.inner, &new.inner)
+    }
+
+    fn continuous(&self) -> bool {
+        self.0.continuous()
     }
 
     fn isotropic(&self) -> bool {

@@ -226,7 +226,13 @@ impl<E: DamageEvolution> ScalarDamage<E> {
         // ∫ (κ² − κ_a²)/(κ_b² − κ_a²) dd, which lies between 0 and the growth.
         let (low, high) = (before * before, step.state.largest * step.state.largest);
         let share = (evolved.spent - start.spent - low * growth) / (high - low);
-        Ok(first * growth + (last - first) * share.clamp(0.0, growth))
+        let dissipated = first * growth + (last - first) * share.clamp(0.0, growth);
+        // In units in which the square of a stress is zero or infinite.
+        if dissipated.is_finite() {
+            Ok(dissipated)
+        } else {
+            Err(MaterialError::NotFinite { law: E::NAME })
+        }
     }
 
     /// Where a straight step to `to` comes to the measure `level`, which its end exceeds.
@@ -277,6 +283,10 @@ impl<E: DamageEvolution> Material for ScalarDamage<E> {
 
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
         self.check_width(band.max_width(), scale)
+    }
+
+    fn started_width(&self, old: &ScalarDamageState, new: &ScalarDamageState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
     }
 
     fn density(&self) -> f64 {

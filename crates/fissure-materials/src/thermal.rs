@@ -181,6 +181,7 @@ impl<M: Material> Material for Thermal<M> {
     const HYPERELASTIC: bool = M::HYPERELASTIC;
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
+    const PLANE: bool = M::PLANE;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -190,6 +191,14 @@ impl<M: Material> Material for Thermal<M> {
 
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
         self.law.check_band(band, scale)
+    }
+
+    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
+        self.law.started_width(&old.inner, &new.inner)
+    }
+
+    fn continuous(&self) -> bool {
+        self.law.continuous()
     }
 
     /// Whether the law inside is; at the temperature at rest the expansion prefers no direction.

@@ -66,7 +66,7 @@ impl Study for Isoerror {
     }
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
-        for case in cases {
+        for case in laws::offered(cases)? {
             let chosen = Chosen::of(case)?;
             let (cells, parts) = (case.size("cells")?, case.size("parts")?);
             let band = number_or(case, "band", chosen.law.band())?;

@@ -59,7 +59,7 @@ impl Study for LawTable {
     }
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
-        for case in cases {
+        for case in laws::offered(cases)? {
             let (row, first) = row(case)?;
             report.row(row)?;
             if let Some(first) = first {

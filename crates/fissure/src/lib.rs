@@ -62,10 +62,16 @@ pub mod prelude {
     pub use fissure_io::table::Table;
     pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
-        Axis, Biot, Control, Crack, Cracking, Decohesive, Entry, Event, EventKind, External,
-        Hencky, Increment, Isotropic, Material, MaterialError, NeoHookean, Normal, Path,
-        PlaneStress, Point, Response, Sample, Scale, Softening, SubSteps, check_parameter,
-        contract, softening,
+        AnisotropicDamage, Axis, Biot, Burn, Cohesive, Component, Control, Crack, Cracking,
+        DamagePlane, Decohesive, EllipticalDamage, Entry, Event, EventKind, Expansion, External,
+        GradientLeg, Hencky, Increment, Isotropic, J2, Jump, Jwl, Leg, LoweredStrength, Material,
+        MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode, NeoHookean, Normal, Onset,
+        Orthotropic, OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn, RankineDamage,
+        Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage, SubSteps, Thermal,
+        Traction, TractionSeparation, ViscousDamage, check_parameter, contract, criteria,
+        hardening, localization, multi_crack,
+        multi_crack::{ModeOne, MultiCrack, Planes},
+        softening,
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;

@@ -203,6 +203,10 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
         self.parameters.check_band(band, scale)
     }
 
+    fn started_width(&self, old: &IncrementalState, new: &IncrementalState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
     fn isotropic(&self) -> bool {
         false
     }

@@ -39,7 +39,8 @@ impl<S: Softening> Mode<S> {
         let (strength, toughness) = (self.strength, self.toughness);
         let rule = "finite and > 0";
         check_parameter(law, names[0], strength, strength > 0.0, rule)?;
-        check_parameter(law, names[1], toughness, toughness > 0.0, rule)
+        check_parameter(law, names[1], toughness, toughness > 0.0, rule)?;
+        self.softening.check()
     }
 
     pub(super) fn at(&self, modulus: f64, width: f64, scale: &Scale) -> ModeAt<'_, S> {

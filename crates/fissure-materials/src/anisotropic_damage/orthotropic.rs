@@ -250,6 +250,10 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
         })
     }
 
+    fn started_width(&self, old: &AnisotropicDamageState, new: &AnisotropicDamageState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
     fn isotropic(&self) -> bool {
         false
     }

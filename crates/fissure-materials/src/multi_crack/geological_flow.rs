@@ -183,6 +183,7 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         let toughness = self.toughness;
         let rule = "finite and > 0";
         check_parameter(NAME, "toughness", toughness, toughness > 0.0, rule)?;
+        self.softening.check()?;
         let friction = self.friction.unwrap_or(0.0);
         check_parameter(
             NAME,

@@ -157,6 +157,7 @@ impl<S: Softening> Decohesion for ModeOne<S> {
             |field, value: f64| check_parameter(NAME, field, value, value > 0.0, "finite and > 0");
         positive("strength", self.strength)?;
         positive("toughness", self.toughness)?;
+        self.softening.check()?;
         let friction = self.friction();
         check_parameter(
             NAME,

@@ -35,7 +35,8 @@ fn path_error<S: Subject>(subject: &S, fracture: &Fracture, random: &mut Random)
     increment.band = Band::Uniform(width);
     let (mut state, mut dissipated) = (law.initial(), 0.0);
     let mut from = 0.0;
-    for level in levels(random) {
+    // Not shut before it has started: crushing may start a crack in shear.
+    for level in levels(random, 1.05 * subject.strain() / top) {
         let steps = random.log_uniform(1.0, 300.0) as usize;
         for step in 1..=steps {
             let part = step as f64 / steps as f64;
@@ -50,7 +51,7 @@ fn path_error<S: Subject>(subject: &S, fracture: &Fracture, random: &mut Random)
         }
         from = level;
     }
-    let failed = subject.cracks(&state).iter().any(|crack| crack.failed);
+    let failed = !fracture.fails || subject.cracks(&state).iter().any(|crack| crack.failed);
     if failed {
         (dissipated * width / fracture.toughness - 1.0).abs()
     } else {
@@ -82,10 +83,10 @@ fn normal_of<S: Subject>(subject: &S, random: &mut Random) -> Vector3<f64> {
 }
 
 /// Up to three times up and down again, into compression too, and then all the way.
-fn levels(random: &mut Random) -> Vec<f64> {
+fn levels(random: &mut Random, started: f64) -> Vec<f64> {
     let mut levels = Vec::new();
     for _ in 0..random.integer(0, 3) {
-        let high = random.uniform(0.0, 1.0);
+        let high = random.uniform(started.min(1.0), 1.0);
         levels.extend([high, random.uniform(-0.2, high)]);
     }
     levels.push(1.0);

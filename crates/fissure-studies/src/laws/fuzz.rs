@@ -97,8 +97,8 @@ pub(super) fn fuzz<S: Subject>(subject: &S, updates: u64, seed: u64) -> Fuzzed {
         stiffness: stiffness(subject.law()),
         opening: fracture.map(|f| f.opening),
     };
-    let widest = fracture.map_or(1.0, |f| f.band_limit);
-    let widest = if widest.is_finite() { widest } else { 1.0 };
+    let limit = subject.band_limit();
+    let widest = if limit.is_finite() { limit } else { 1.0 };
     let ways = (S::M::OBJECTIVE, S::M::PLANE);
     let mut counts = Fuzzed::default();
     let mut random = Random::new(seed).in_plane(S::M::PLANE);
@@ -129,6 +129,7 @@ impl<S: Subject> Target<'_, S> {
         let mut increment = Increment::to(Matrix3::identity());
         increment.band = walk.band;
         increment.external.scale = walk.scale;
+        increment.external.temperature = walk.temperature;
         let mut state = law.initial();
         let mut listed = self.subject.irreversible(&state);
         let mut spare = listed.clone();

@@ -58,6 +58,10 @@ impl<'a> Chosen<'a> {
         };
         let values = Values::of(entry, case)?;
         let space = Space::of(case.choice("space")?);
+        if !entry.is_for(space) {
+            let reason = "this law is not offered in plane stress";
+            return Err(StudyError::combination(case, &["law", "space"], reason));
+        }
         let law = (entry.build)(&values, space);
         law.check()
             .map_err(|error| StudyError::combination(case, &["law", "space"], error.to_string()))?;
@@ -76,6 +80,23 @@ impl<'a> Chosen<'a> {
             Space::PlaneStress => format!("{}-plane-stress", self.entry.name),
         }
     }
+}
+
+/// Without the cases of a sweep that ask for a law where it is not offered. A single case stays, and
+/// is refused.
+///
+/// # Errors
+/// The study does not declare law and space.
+pub fn offered(cases: &[Parameters]) -> Result<Vec<&Parameters>, ParameterError> {
+    let mut offered = Vec::new();
+    for case in cases {
+        let space = Space::of(case.choice("space")?);
+        let known = entry(case.choice("law")?);
+        if cases.len() == 1 || known.is_none_or(|entry| entry.is_for(space)) {
+            offered.push(case);
+        }
+    }
+    Ok(offered)
 }
 
 /// A number of a case, or `own` where the case leaves it to the law.

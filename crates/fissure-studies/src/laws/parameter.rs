@@ -52,6 +52,32 @@ impl LawParameter {
         }
     }
 
+    /// A number of zero or more.
+    pub const fn not_negative(
+        name: &'static str,
+        meaning: &'static str,
+        unit: &'static str,
+        default: f64,
+    ) -> Self {
+        Self {
+            permitted: Permitted::Numbers(Bound::Included(0.0), Bound::Unbounded),
+            ..Self::positive(name, meaning, unit, default)
+        }
+    }
+
+    /// Any number.
+    pub const fn number(
+        name: &'static str,
+        meaning: &'static str,
+        unit: &'static str,
+        default: f64,
+    ) -> Self {
+        Self {
+            permitted: Permitted::Numbers(Bound::Unbounded, Bound::Unbounded),
+            ..Self::positive(name, meaning, unit, default)
+        }
+    }
+
     /// One of some names.
     pub const fn choice(
         name: &'static str,

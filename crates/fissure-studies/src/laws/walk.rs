@@ -26,6 +26,8 @@ pub(super) struct Walk {
     pub kind: Kind,
     pub band: Band,
     pub scale: Scale,
+    /// Change of the temperature, K; the same in every step.
+    pub temperature: f64,
     rotation: Matrix3<f64>,
     strain: Sym,
     /// Scales of the law: something happens, and it is all over.
@@ -77,6 +79,7 @@ impl Walk {
             kind,
             band: random.band(width),
             scale,
+            temperature: random.uniform(-50.0, 50.0),
             rotation: Matrix3::identity(),
             strain: Sym::ZERO,
             natural,
