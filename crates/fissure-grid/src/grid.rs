@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::GridError;
+use crate::axes::Axes;
 
 /// Largest number of cells along an axis.
 const MOST_CELLS: i32 = 1 << 20;
@@ -114,20 +115,20 @@ impl<const D: usize> Grid<D> {
     pub fn local(&self, x: &SVector<f64, D>) -> ([i32; D], SVector<f64, D>) {
         let (cell, local) = self.cell_and_local(x);
         // A cast is exact for what is inside and saturates.
-        (std::array::from_fn(|axis| cell[axis] as i32), local)
+        let cell = std::array::from_fn(|axis| cell.0[axis] as i32);
+        (cell, SVector::from_fn(|axis, _| local.0[axis]))
     }
 
     /// The same with the cell's whole numbers as `f64`, which vector units handle better.
     #[inline(always)]
-    pub(crate) fn cell_and_local(&self, x: &SVector<f64, D>) -> (SVector<f64, D>, SVector<f64, D>) {
-        let mut cell = SVector::zeros();
-        let mut local = SVector::zeros();
-        for axis in 0..D {
-            let scaled = (x[axis] - self.origin[axis]) * self.inverse;
-            cell[axis] = scaled.floor().clamp(0.0, f64::from(self.cells[axis] - 1));
-            local[axis] = (scaled - cell[axis]).clamp(0.0, 1.0);
-        }
-        (cell, local)
+    pub(crate) fn cell_and_local(&self, x: &SVector<f64, D>) -> (Axes, Axes) {
+        let from_origin = Axes::from_axes::<D>(|axis| x[axis] - self.origin[axis]);
+        let scaled = from_origin * self.inverse;
+        let last = Axes::from_axes::<D>(|axis| f64::from(self.cells[axis] - 1));
+        let cell = last.min(scaled.floor().max(Axes::splat(0.0)));
+        let local = scaled - cell;
+        // Its number comes last, so that what is none stays so.
+        (cell, Axes::splat(1.0).min(Axes::splat(0.0).max(local)))
     }
 }
 

@@ -45,6 +45,7 @@
 //! Space is `const D: usize`, 1 to 3 (the solvers use 2 and 3). Lengths are in metres. Nothing here depends on the
 //! order of a hash map or on the number of threads.
 
+mod axes;
 mod error;
 mod grid;
 mod separable;

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::axes::Axes;
 use crate::simd::Lanes;
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
 use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START};
@@ -11,71 +12,63 @@ const ROW: usize = WINDOW as usize;
 /// Window stride of axis 2.
 const LAYER: usize = (WINDOW * WINDOW) as usize;
 
-/// Weights along one axis: the first node relative to the particle's cell, values, and slopes per cell width.
-pub(crate) type Line<const K: usize> = (f64, [f64; K], [f64; K]);
-
-/// Places for axes: one more than space has, so that a vector unit takes all at once.
-const AXES: usize = 4;
+/// Weights along each axis: the first node relative to the particle's cell, values, and slopes per cell width.
+pub(crate) type Line<const K: usize> = (Axes, [Axes; K], [Axes; K]);
 
 /// A stencil that is a tensor product: K nodes along each of D axes, `N = Π_a n_a`.
-///
-/// Numbers stand axis by axis beside each other; those of axes that space has not are not used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separable<const D: usize, const K: usize> {
     /// Window index of the lowest node.
     base: usize,
-    values: [[f64; AXES]; K],
+    values: [Axes; K],
     /// Derivatives of the values, 1/m.
-    slopes: [[f64; AXES]; K],
+    slopes: [Axes; K],
     /// Values times arms, m.
-    moments: [[f64; AXES]; K],
+    moments: [Axes; K],
     /// From the particle to the lowest node, m.
-    arm: [f64; AXES],
+    arm: Axes,
     /// Cell width, m.
     spacing: f64,
 }
 
 impl<const D: usize, const K: usize> Separable<D, K> {
-    /// Builds from the weights along an axis, given the particle's coordinate [0, 1] in its cell. None if the particle is
-    /// outside the grid or one of the nodes outside the tile's window.
-    ///
-    /// Written without branches between the axes: all are done at once.
+    /// Builds from the weights along the axes, given the particle's coordinates [0, 1] in its cell. None if the particle
+    /// is outside the grid or one of the nodes outside the tile's window.
     #[inline(always)]
     pub(crate) fn new(
         grid: &Grid<D>,
         tile: [i32; D],
         x: &SVector<f64, D>,
-        line: impl Fn(f64) -> Line<K>,
+        line: impl Fn(Axes) -> Line<K>,
     ) -> Option<Self> {
         if !grid.contains(x) {
             return None;
         }
         let (cell, local) = grid.cell_and_local(x);
+        let (first, values, slopes) = line(local);
+        let window = Axes::from_axes::<D>(|axis| {
+            f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START)
+        });
+        let start = cell + first - window;
+        let (mut base, mut fits) = (0.0, true);
+        for (axis, start) in start.0.iter().enumerate().take(D) {
+            fits &= *start >= 0.0 && *start <= f64::from(WINDOW) - K as f64;
+            base += start * (1 << (3 * axis)) as f64;
+        }
+        let arm = (first - local) * grid.spacing();
         let mut stencil = Self {
-            base: 0,
-            values: [[0.0; AXES]; K],
-            slopes: [[0.0; AXES]; K],
-            moments: [[0.0; AXES]; K],
-            arm: [0.0; AXES],
+            // A small whole number, unless it does not fit.
+            base: base as u16 as usize,
+            values,
+            slopes,
+            moments: values,
+            arm,
             spacing: grid.spacing(),
         };
-        let (mut base, mut fits) = (0.0, true);
-        for axis in 0..D {
-            let (first, values, slopes) = line(local[axis]);
-            let window = f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START);
-            let start = cell[axis] + first - window;
-            fits &= (0.0..=f64::from(WINDOW) - K as f64).contains(&start);
-            base += start * (1 << (3 * axis)) as f64;
-            let arm = (first - local[axis]) * grid.spacing();
-            stencil.arm[axis] = arm;
-            for k in 0..K {
-                stencil.values[k][axis] = values[k];
-                stencil.slopes[k][axis] = slopes[k] * grid.inverse_spacing();
-                stencil.moments[k][axis] = values[k] * (arm + k as f64 * grid.spacing());
-            }
+        for k in 0..K {
+            stencil.slopes[k] = slopes[k] * grid.inverse_spacing();
+            stencil.moments[k] = values[k] * (arm + k as f64 * grid.spacing());
         }
-        // The cast is exact: a small whole number, unless it does not fit.
-        stencil.base = base as u16 as usize;
         fits.then_some(stencil)
     }
 
@@ -96,9 +89,9 @@ impl<const D: usize, const K: usize> Separable<D, K> {
             return (0.0, 0.0, 0.0);
         }
         (
-            self.values[k][axis],
-            self.slopes[k][axis],
-            self.moments[k][axis],
+            self.values[k].0[axis],
+            self.slopes[k].0[axis],
+            self.moments[k].0[axis],
         )
     }
 
@@ -150,14 +143,14 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for k in 0..K {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
-                    let both = value[j][1] * value[k][2];
-                    let along_1 = slope[j][1] * value[k][2];
-                    let along_2 = value[j][1] * slope[k][2];
+                    let both = value[j].0[1] * value[k].0[2];
+                    let along_1 = slope[j].0[1] * value[k].0[2];
+                    let along_2 = value[j].0[1] * slope[k].0[2];
                     for i in 0..K {
-                        gradient[0] = slope[i][0] * both;
-                        gradient[1] = value[i][0] * along_1;
-                        gradient[2] = value[i][0] * along_2;
-                        f(start + i, value[i][0] * both, gradient);
+                        gradient[0] = slope[i].0[0] * both;
+                        gradient[1] = value[i].0[0] * along_1;
+                        gradient[2] = value[i].0[0] * along_2;
+                        f(start + i, value[i].0[0] * both, gradient);
                     }
                 }
             }
@@ -165,15 +158,15 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for j in 0..K {
                 let start = self.base + ROW * j;
                 for i in 0..K {
-                    gradient[0] = slope[i][0] * value[j][1];
-                    gradient[1] = value[i][0] * slope[j][1];
-                    f(start + i, value[i][0] * value[j][1], gradient);
+                    gradient[0] = slope[i].0[0] * value[j].0[1];
+                    gradient[1] = value[i].0[0] * slope[j].0[1];
+                    f(start + i, value[i].0[0] * value[j].0[1], gradient);
                 }
             }
         } else {
             for i in 0..K {
-                gradient[0] = slope[i][0];
-                f(self.base + i, value[i][0], gradient);
+                gradient[0] = slope[i].0[0];
+                f(self.base + i, value[i].0[0], gradient);
             }
         }
     }
@@ -185,9 +178,9 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for k in 0..K {
                 for j in 0..K {
                     let start = self.base + LAYER * k + ROW * j;
-                    let both = value[j][1] * value[k][2];
+                    let both = value[j].0[1] * value[k].0[2];
                     for (i, along) in value.iter().enumerate() {
-                        f(start + i, along[0] * both);
+                        f(start + i, along.0[0] * both);
                     }
                 }
             }
@@ -195,12 +188,12 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             for j in 0..K {
                 let start = self.base + ROW * j;
                 for (i, along) in value.iter().enumerate() {
-                    f(start + i, along[0] * value[j][1]);
+                    f(start + i, along.0[0] * value[j].0[1]);
                 }
             }
         } else {
             for (i, along) in value.iter().enumerate() {
-                f(self.base + i, along[0]);
+                f(self.base + i, along.0[0]);
             }
         }
     }
@@ -209,7 +202,7 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
     fn arm(&self, window: usize) -> SVector<f64, D> {
         SVector::from_fn(|axis, _| {
             let k = (window >> (3 * axis) & 7) as f64 - (self.base >> (3 * axis) & 7) as f64;
-            self.arm[axis] + k * self.spacing
+            self.arm.0[axis] + k * self.spacing
         })
     }
 

@@ -23,7 +23,7 @@ impl LeftStrain {
     ///
     /// # Errors
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
-    #[inline]
+    #[inline(always)]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
         let determinant = f.determinant();
         let h = f - Matrix3::identity();
@@ -46,13 +46,13 @@ impl LeftStrain {
     }
 
     /// `J`.
-    #[inline]
+    #[inline(always)]
     pub fn jacobian(&self) -> f64 {
         1.0 + self.dilation
     }
 
     /// `ln J`.
-    #[inline]
+    #[inline(always)]
     pub fn log_jacobian(&self) -> f64 {
         self.dilation.ln_1p()
     }
@@ -61,7 +61,7 @@ impl LeftStrain {
 /// `x − ln(1 + x)`, of second order in `x`, to round-off.
 ///
 /// With `r = x/(2 + x)` it is `x r − 2 (r³/3 + r⁵/5 + …)`, from `ln(1 + x) = 2 artanh r`.
-#[inline]
+#[inline(always)]
 pub(crate) fn excess_over_log(x: f64) -> f64 {
     if x.abs() > 0.1 {
         return x - x.ln_1p();

@@ -57,7 +57,7 @@ impl Material for NeoHookean {
     /// stand for them: `max n·b·n ≤ p + 2 q` with the mean `p` of the eigenvalues of `b` and
     /// `6 q² = |dev b|²` (equal in uniaxial stretch), and `−ln J ≤ 1/J − 1`, or `ln J ≤ J − 1`
     /// where `λ < 0`. At small strain nothing is lost.
-    #[inline]
+    #[inline(always)]
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &(), scale: &Scale) -> f64 {
         let (lambda, shear) = self.constants(scale);
         let b = Sym::from_matrix(&(f * f.transpose()));
@@ -73,7 +73,7 @@ impl Material for NeoHookean {
         ((along.max(0.0) + shear * squared) / self.density).sqrt()
     }
 
-    #[inline]
+    #[inline(always)] // A call would copy the increment, which costs as much as the law.
     fn update(&self, increment: &Increment, _old: &()) -> Result<Response<()>, MaterialError> {
         let (lambda, shear) = self.constants(&increment.external.scale);
         let strain = LeftStrain::new(&increment.f_new)?;

@@ -304,18 +304,21 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         let first = run.start as usize;
         let mut totals = SweepTotals::default();
         let mut failure: Option<SweepFailure> = None;
+        let asked = kernel.sets_external();
         for row in 0..old.len() {
             let index = first + row;
             let scale = scale_of(self.constants.scale, index);
+            let set = if asked {
+                kernel.external(run, row)
+            } else {
+                External::default()
+            };
             let mut increment = Increment {
                 f_old: old.deformation_gradient[row],
                 f_new: new.deformation_gradient[row],
                 dt: self.settings.dt,
                 band: self.settings.band,
-                external: External {
-                    scale,
-                    ..kernel.external(run, row)
-                },
+                external: External { scale, ..set },
             };
             let answer = match tangents {
                 Tangents::None => self.law.update(&increment, &states[row]),

@@ -156,6 +156,11 @@ pub trait TileKernel<const D: usize> {
     ) {
     }
 
+    /// Whether [`external`](Self::external) is to be asked.
+    fn sets_external(&self) -> bool {
+        false
+    }
+
     /// What the solver sets for the law of one particle (by row of the run) in this step: a
     /// temperature change, a damage interpolated from a nodal field. The particle's own scale is
     /// added after.

@@ -64,6 +64,10 @@ impl TileKernel<2> for Stretch<'_> {
         Ok(())
     }
 
+    fn sets_external(&self) -> bool {
+        true
+    }
+
     fn external(&self, run: &Run, row: usize) -> External {
         External {
             damage: self.0.damage[run.start as usize + row],

@@ -41,7 +41,7 @@ impl Sym {
     }
 
     /// Symmetric part of a matrix.
-    #[inline]
+    #[inline(always)]
     pub fn from_matrix(m: &Matrix3<f64>) -> Self {
         Self {
             mandel: [
@@ -56,7 +56,7 @@ impl Sym {
     }
 
     /// As a full 3×3 matrix.
-    #[inline]
+    #[inline(always)]
     pub fn to_matrix(&self) -> Matrix3<f64> {
         let (yz, xz, xy) = (self.yz(), self.xz(), self.xy());
         Matrix3::new(self.xx(), xy, xz, xy, self.yy(), yz, xz, yz, self.zz())
@@ -94,25 +94,25 @@ impl Sym {
     }
 
     /// Sum of the diagonal.
-    #[inline]
+    #[inline(always)]
     pub fn trace(&self) -> f64 {
         self.mandel[0] + self.mandel[1] + self.mandel[2]
     }
 
     /// Mean of the diagonal; the negative pressure of a stress.
-    #[inline]
+    #[inline(always)]
     pub fn mean(&self) -> f64 {
         self.trace() / 3.0
     }
 
     /// The tensor less its mean times the identity.
-    #[inline]
+    #[inline(always)]
     pub fn deviator(&self) -> Self {
         *self - Self::IDENTITY * self.mean()
     }
 
     /// Double contraction `A:B`.
-    #[inline]
+    #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
         let (a, b) = (&self.mandel, &other.mandel);
         (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5])
@@ -140,7 +140,7 @@ impl Sym {
     }
 
     /// Whether every component is finite.
-    #[inline]
+    #[inline(always)]
     pub fn is_finite(&self) -> bool {
         self.mandel.iter().all(|c| c.is_finite())
     }

@@ -3,6 +3,7 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
+use crate::axes::Axes;
 use crate::separable::Line;
 use crate::{Grid, Separable, Shape};
 
@@ -78,30 +79,35 @@ impl<const D: usize> Shape<D> for Bspline3 {
 
 /// The nearest node and the ones beside it; `d` is the distance to it in cells.
 #[inline(always)]
-fn quadratic(t: f64) -> Line<3> {
-    let nearest = if t >= 0.5 { 1.0 } else { 0.0 };
+fn quadratic(t: Axes) -> Line<3> {
+    let nearest = t.step(0.5);
     let d = t - nearest;
-    let (below, above) = (0.5 - d, 0.5 + d);
+    let (below, above) = (-d + 0.5, d + 0.5);
     (
-        nearest - 1.0,
-        [0.5 * below * below, 0.75 - d * d, 0.5 * above * above],
-        [-below, -2.0 * d, above],
+        nearest + -1.0,
+        [below * below * 0.5, -(d * d) + 0.75, above * above * 0.5],
+        [-below, d * -2.0, above],
     )
 }
 
 #[inline(always)]
-fn cubic(t: f64) -> Line<4> {
-    let s = 1.0 - t;
+fn cubic(t: Axes) -> Line<4> {
+    let s = -t + 1.0;
     let (t2, s2) = (t * t, s * s);
-    let inner = |square: f64, one: f64| 2.0 / 3.0 - square * (1.0 - 0.5 * one);
+    let sixth = 1.0 / 6.0;
     (
-        -1.0,
-        [s2 * s / 6.0, inner(t2, t), inner(s2, s), t2 * t / 6.0],
+        Axes::splat(-1.0),
         [
-            -0.5 * s2,
-            -t * (2.0 - 1.5 * t),
-            s * (2.0 - 1.5 * s),
-            0.5 * t2,
+            s2 * s * sixth,
+            t2 * (t * 0.5 + -1.0) + 2.0 / 3.0,
+            s2 * (s * 0.5 + -1.0) + 2.0 / 3.0,
+            t2 * t * sixth,
+        ],
+        [
+            s2 * -0.5,
+            t * (t * 1.5 + -2.0),
+            -(s * (s * 1.5 + -2.0)),
+            t2 * 0.5,
         ],
     )
 }

@@ -3,6 +3,7 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
+use crate::axes::Axes;
 use crate::separable::Line;
 use crate::{Grid, Separable, Shape};
 
@@ -77,16 +78,18 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
 /// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
 /// the kink is outside, and the rest of `d` acts as on linear functions.
 #[inline(always)]
-fn averaged(t: f64, l: f64, inverse: f64) -> Line<3> {
-    let nearest = if t >= 0.5 { 1.0 } else { 0.0 };
+fn averaged(t: Axes, l: f64, inverse: f64) -> Line<3> {
+    let nearest = t.step(0.5);
     let d = t - nearest;
-    let a = d.clamp(-l, l);
-    let (below, above) = ((l - a) * inverse, (l + a) * inverse);
-    let low = 0.5 * below * (l - a) + (a - d).max(0.0);
-    let high = 0.5 * above * (l + a) + (d - a).max(0.0);
+    let a = d.max(Axes::splat(-l)).min(Axes::splat(l));
+    let (left, right) = (-a + l, a + l);
+    let (below, above) = (left * inverse, right * inverse);
+    let zero = Axes::splat(0.0);
+    let low = below * left * 0.5 + (a - d).max(zero);
+    let high = above * right * 0.5 + (d - a).max(zero);
     (
-        nearest - 1.0,
-        [low, 1.0 - (low + high), high],
+        nearest + -1.0,
+        [low, -(low + high) + 1.0, high],
         [-below, below - above, above],
     )
 }

@@ -3,6 +3,7 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
+use crate::axes::Axes;
 use crate::{Grid, Separable, Shape};
 
 /// Multilinear functions of the particle's position (Sulsky, Chen & Schreyer 1994). The domain is not used.
@@ -24,7 +25,10 @@ impl<const D: usize> Shape<D> for Linear {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, |t| (0.0, [1.0 - t, t], [-1.0, 1.0]))
+        Separable::new(grid, tile, x, |t| {
+            let (zero, one) = (Axes::splat(0.0), Axes::splat(1.0));
+            (zero, [one - t, t], [-one, one])
+        })
     }
 
     fn reach(&self) -> (i32, i32) {
