@@ -217,8 +217,7 @@ fn relaxed(trial: &LogStrain, deviator: &[f64; 3], left: f64, f: &Matrix3<f64>) 
 impl<H: Hardening> Material for J2<H> {
     type State = J2State;
     const NAMES: &'static [&'static str] = &["equivalent_plastic_strain"];
-    /// In plane stress; 0.035 in space.
-    const STEP_ERROR: f64 = 0.06;
+    const STEP_ERROR: f64 = 0.05;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
