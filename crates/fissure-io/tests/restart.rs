@@ -103,7 +103,9 @@ fn a_spoilt_file_is_refused_by_section_and_leaves_the_scene() {
         .collect();
     let whole = fs::read(&path).unwrap();
     let untouched = scene(STRAIN).save().unwrap();
-    let mut start = whole.len() - lengths.iter().sum::<usize>() - 8;
+    let memory: Vec<f64> = reader.get("solver memory").unwrap();
+    let sections = lengths.iter().sum::<usize>() + size_of_val(&memory[..]);
+    let mut start = whole.len() - sections;
     for (name, length) in names.iter().zip(lengths) {
         let middle = start + length / 2;
         start += length;
