@@ -42,7 +42,7 @@ pub(crate) struct NodeSums<const D: usize> {
 #[repr(align(64))]
 struct Node([AtomicU64; SUMS]);
 
-/// Most tiles along the curve that a thread clears at a time.
+/// Nodes that a thread clears at a time.
 const CLEARED: usize = 4096;
 
 impl<const D: usize> NodeSums<D> {
