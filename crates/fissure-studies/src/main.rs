@@ -3,8 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
-use fissure_studies::framework::execute;
 use fissure_studies::studies;
+use fissure_study::execute;
 
 fn main() -> ExitCode {
     ExitCode::from(execute(

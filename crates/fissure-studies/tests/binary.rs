@@ -2,8 +2,8 @@
 
 use std::process::Command;
 
-use fissure_studies::framework::{Overrides, combinations};
 use fissure_studies::studies;
+use fissure_study::{Overrides, combinations};
 
 #[test]
 fn exit_codes_of_the_process() {

@@ -1,8 +1,8 @@
 //! The tensile bar against its exact solution, through the command line.
 #![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
 
-use fissure_studies::framework::execute;
 use fissure_studies::studies;
+use fissure_study::execute;
 use serde_json::Value;
 
 /// Result rows of a command, as JSON.

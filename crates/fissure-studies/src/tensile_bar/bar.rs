@@ -4,7 +4,7 @@ use fissure::prelude::*;
 use nalgebra::SMatrix;
 
 use super::exact::Exact;
-use crate::framework::{Parameters, StudyError};
+use fissure_study::{Parameters, StudyError};
 
 type Point = Vector2<f64>;
 

@@ -2,7 +2,7 @@
 
 use std::thread::available_parallelism;
 
-use crate::framework::{Overrides, Parameter, Permitted, Value};
+use fissure_study::{Overrides, Parameter, Permitted, Value};
 
 /// Grid spacings of the document, m: h⁻¹ = 50, 100, 200, 400.
 const SPACINGS: [f64; 4] = [0.02, 0.01, 0.005, 0.0025];

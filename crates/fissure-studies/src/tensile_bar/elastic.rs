@@ -6,7 +6,7 @@ use rayon::ThreadPoolBuilder;
 
 use super::bar::{BODY, Bar};
 use super::softening::load;
-use crate::framework::{Parameters, Report as Rows, Row, SimulationRow, StudyError};
+use fissure_study::{Parameters, Report as Rows, Row, SimulationRow, StudyError};
 
 /// Mean strain of the bar: so small that the geometry does not change within the errors studied.
 const STRAIN: f64 = 1e-7;

@@ -9,7 +9,7 @@ mod history;
 mod pictures;
 mod softening;
 
-use crate::framework::{Overrides, Parameter, Parameters, Report, Study, StudyError};
+use fissure_study::{Overrides, Parameter, Parameters, Report, Study, StudyError};
 
 /// The study `tensile-bar`.
 pub struct TensileBar;

@@ -11,7 +11,7 @@ use super::bar::{BODY, Bar};
 use super::exact::Exact;
 use super::history::Thinned;
 use super::softening::Finished;
-use crate::framework::{Parameters, StudyError};
+use fissure_study::{Parameters, StudyError};
 
 /// Rows of a curve in pictures and tables.
 const ROWS: usize = 400;

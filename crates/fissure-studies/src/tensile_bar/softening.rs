@@ -12,7 +12,7 @@ use super::bar::{BODY, Bar};
 use super::exact::Exact;
 use super::history::History;
 use super::pictures::{Pictures, frames};
-use crate::framework::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
+use fissure_study::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
 
 /// Where a run ends, over the critical opening.
 const END: f64 = 1.25;
