@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SolveError;
 use crate::law::{BodyLaw, Constants, SweepLaw};
-use crate::over_tiles::{Cut, over_tiles};
+use crate::over_windows::{Cut, over_windows};
 use crate::sweep::{
     KernelFailure, Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
@@ -168,7 +168,7 @@ impl<const D: usize> Body<D> {
         let (_, part) = part.cut(first.start as usize);
         let leaf = |runs: &[Run], part: Moving<'_, D>| {
             let mut rest = Some(part);
-            kernel.on_tile(runs[0].tile, &mut |kernel| {
+            kernel.on_window(runs[0].window, &mut |kernel| {
                 for run in runs {
                     let Some(part) = rest.take() else { continue };
                     let (mut part, left) = part.cut(run.len());
@@ -184,7 +184,7 @@ impl<const D: usize> Body<D> {
                 Ok(())
             })
         };
-        let moved = over_tiles(runs, part, &leaf, &Result::and).unwrap_or(Ok(()));
+        let moved = over_windows(runs, part, &leaf, &Result::and).unwrap_or(Ok(()));
         moved.map_err(|KernelFailure { index }| BodyFailure {
             position: motion.position[index],
             failure: SweepFailure {

@@ -333,16 +333,17 @@ impl<const D: usize> Scene<D> {
         Ok(Selection::Body { body: index, ids })
     }
 
-    fn body_index(&self, name: &str) -> Result<usize, SceneError> {
+    pub(crate) fn body_index(&self, name: &str) -> Result<usize, SceneError> {
         let index = self.bodies.iter().position(|body| body.name == name);
         index.ok_or_else(|| SceneError::UnknownBody {
             name: name.to_owned(),
         })
     }
 
-    fn free_name(&self, name: &str) -> Result<(), SceneError> {
+    pub(crate) fn free_name(&self, name: &str) -> Result<(), SceneError> {
         let taken = self.bodies.iter().any(|body| body.name == name)
-            || self.conditions.iter().any(|c| c.name == name);
+            || self.conditions.iter().any(|c| c.name == name)
+            || self.contacts.iter().any(|c| c.name == name);
         if taken {
             return Err(SceneError::NameTaken {
                 name: name.to_owned(),

@@ -54,10 +54,22 @@ pub enum SceneError {
         source: ExtraError,
     },
     /// A name is taken.
-    #[error("the name '{name}' is taken; names of bodies and conditions are unique")]
+    #[error("the name '{name}' is taken; names of bodies, conditions and contacts are unique")]
     NameTaken {
         /// The name.
         name: String,
+    },
+    /// Two bodies have a contact already, or are one.
+    #[error(
+        "contact '{name}' between '{first}' and '{second}': they must be two bodies without a contact"
+    )]
+    ContactTaken {
+        /// The contact.
+        name: String,
+        /// One body.
+        first: String,
+        /// The other.
+        second: String,
     },
     /// No body has this name.
     #[error("no body is called '{name}'")]

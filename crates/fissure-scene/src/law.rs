@@ -6,10 +6,10 @@ use fissure_tensor::{Band, Sym};
 
 use crate::PersistError;
 use crate::body::ParticleScale;
-use crate::over_tiles::{Cut, over_tiles};
+use crate::over_windows::{Cut, over_windows};
 use crate::sweep::{
     KernelFailure, Run, RunConstants, RunKernel, SweepCause, SweepFailure, SweepSettings,
-    SweepTotals, Tangents, TileKernel,
+    SweepTotals, Tangents, WindowKernel,
 };
 
 /// Columns of a body that a sweep reads besides the motion.
@@ -201,8 +201,8 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         // The runs may be those of a part of the body.
         let (part, _) = part.cut(last.end as usize);
         let (_, part) = part.cut(first.start as usize);
-        let leaf = |runs: &[Run], part| sweep.tile(runs, part);
-        over_tiles(runs, part, &leaf, &SweepFailure::first)
+        let leaf = |runs: &[Run], part| sweep.window(runs, part);
+        over_windows(runs, part, &leaf, &SweepFailure::first)
             .unwrap_or_else(|| Ok(SweepTotals::default()))
     }
 }
@@ -255,11 +255,15 @@ impl<S: Send + Sync, const D: usize> Cut for Part<'_, S, D> {
 }
 
 impl<M: Material, const D: usize> Sweep<'_, M, D> {
-    /// The runs of one tile, one after another.
-    fn tile(&self, runs: &[Run], part: Part<'_, M::State, D>) -> Result<SweepTotals, SweepFailure> {
+    /// The runs of one window, one after another.
+    fn window(
+        &self,
+        runs: &[Run],
+        part: Part<'_, M::State, D>,
+    ) -> Result<SweepTotals, SweepFailure> {
         let mut result = Ok(SweepTotals::default());
         let mut rest = Some(part);
-        let moved = self.kernel.on_tile(runs[0].tile, &mut |kernel| {
+        let moved = self.kernel.on_window(runs[0].window, &mut |kernel| {
             for run in runs {
                 let Some(part) = rest.take() else { continue };
                 let (mut part, left) = part.cut(run.len());
@@ -291,7 +295,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
     fn run(
         &self,
         run: &Run,
-        kernel: &dyn TileKernel<D>,
+        kernel: &dyn WindowKernel<D>,
         part: &mut Part<'_, M::State, D>,
     ) -> Result<SweepTotals, SweepFailure> {
         let Part {

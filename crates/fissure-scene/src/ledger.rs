@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Energies of one step, J.
 ///
 /// The ledger keeps apart what is an identity from what is an approximation:
-/// `external = Δkinetic_grid + internal` holds to round-off in an explicit step (in a quasi-static
+/// `external = Δkinetic_grid + internal + contact` holds to round-off in an explicit step (in a quasi-static
 /// one to what equilibrium and the fresh grid of the next step leave); `internal = Δstored + dissipated`
 /// to first order in the step, if the nodes that do the work also strain the particles (with MUSL
 /// the particles' own velocities do, and a dissipative transfer shows here too);
@@ -23,6 +23,8 @@ pub struct StepEnergy {
     pub dissipated: f64,
     /// Work of artificial viscosity in the step.
     pub viscous: f64,
+    /// Energy that contacts take: friction, and impacts, which have no rebound of their own.
+    pub contact: f64,
     /// Kinetic energy of the grid before the nodes were accelerated.
     pub kinetic_grid_start: f64,
     /// Kinetic energy of the grid after.
@@ -44,11 +46,13 @@ pub struct EnergyTotals {
     pub dissipated: f64,
     /// Work of artificial viscosity.
     pub viscous: f64,
+    /// Energy that contacts took.
+    pub contact: f64,
     /// Kinetic energy of the particles now.
     pub kinetic: f64,
     /// Kinetic energy lost between particles and grid, both ways.
     pub transfer_loss: f64,
-    /// Largest `|external − Δkinetic_grid − internal|` of a step, over that step's largest term.
+    /// Largest `|external − Δkinetic_grid − internal − contact|` of a step, over that step's largest term.
     pub worst_balance: f64,
 }
 
@@ -60,6 +64,7 @@ impl EnergyTotals {
         self.stored = step.stored;
         self.dissipated += step.dissipated;
         self.viscous += step.viscous;
+        self.contact += step.contact;
         self.transfer_loss += (self.kinetic - step.kinetic_grid_start)
             + (step.kinetic_grid_end - step.kinetic_particles);
         self.kinetic = step.kinetic_particles;
@@ -71,7 +76,7 @@ impl EnergyTotals {
             .max(step.kinetic_grid_end)
             .max(step.kinetic_grid_start);
         if scale > 0.0 {
-            let balance = (step.external - gain - step.internal).abs() / scale;
+            let balance = (step.external - gain - step.internal - step.contact).abs() / scale;
             // `max` would drop a NaN.
             if !(balance <= self.worst_balance) {
                 self.worst_balance = balance;
@@ -99,6 +104,8 @@ pub struct Report<const D: usize> {
     pub energy: StepEnergy,
     /// Force that each condition exerts on the bodies, N, in the order of the scene's conditions.
     pub reactions: Vec<SVector<f64, D>>,
+    /// Force that each contact exerts on its second body, N, in the order of the scene's contacts.
+    pub contact_forces: Vec<SVector<f64, D>>,
     /// Newton iterations; 0 for explicit steps.
     pub iterations: usize,
 }

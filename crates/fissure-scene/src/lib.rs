@@ -23,12 +23,13 @@
 mod body;
 mod building;
 mod condition;
+mod contact;
 mod error;
 mod every;
 mod kinematics;
 mod law;
 mod ledger;
-mod over_tiles;
+mod over_windows;
 mod persist;
 mod scene;
 mod solver;
@@ -36,17 +37,18 @@ mod sweep;
 
 pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
+pub use contact::{Contact, ContactLaw};
 pub use error::{PersistError, SceneError, SolveError, WatchError};
 pub use every::Every;
 pub use fissure_materials::External;
 pub use kinematics::{Kinematics, Plane};
 pub use law::BodyLaw;
 pub use ledger::{EnergyTotals, Report, StepEnergy};
-pub use over_tiles::for_each_tile;
+pub use over_windows::for_each_window;
 pub use persist::Section;
 pub use scene::Scene;
 pub use solver::{RunSummary, Solver, Until, Watch, run};
 pub use sweep::{
-    ByRun, KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, TileKernel,
-    Viscosity,
+    ByRun, KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, Viscosity,
+    WindowKernel,
 };

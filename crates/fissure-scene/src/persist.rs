@@ -25,6 +25,7 @@ struct Clock<const D: usize> {
     step: u64,
     energy: EnergyTotals,
     reactions: Vec<SVector<f64, D>>,
+    contact_forces: Vec<SVector<f64, D>>,
     rigid: Vec<Vec<SVector<f64, D>>>,
 }
 
@@ -52,6 +53,7 @@ impl<const D: usize> Scene<D> {
             step: self.step,
             energy: self.energy,
             reactions: self.reactions.clone(),
+            contact_forces: self.contact_forces.clone(),
             rigid: rigid.collect(),
         };
         let mut sections = vec![encode("scene".to_owned(), &clock)?];
@@ -99,6 +101,7 @@ impl<const D: usize> Scene<D> {
         self.step = clock.step;
         self.energy = clock.energy;
         self.reactions = clock.reactions;
+        self.contact_forces = clock.contact_forces;
         fits(
             "scene",
             "number of conditions",

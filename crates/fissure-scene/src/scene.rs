@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use crate::body::Body;
 use crate::condition::{Condition, ConditionKind, Selection};
+use crate::contact::Contact;
 use crate::kinematics::{Kinematics, Plane};
 use crate::ledger::{EnergyTotals, Report};
 
@@ -21,11 +22,13 @@ pub struct Scene<const D: usize> {
     pub(crate) kinematics: Kinematics,
     pub(crate) bodies: Vec<Body<D>>,
     pub(crate) conditions: Vec<Condition<D>>,
+    pub(crate) contacts: Vec<Contact>,
     pub(crate) body_force: Option<BodyForce<D>>,
     pub(crate) time: f64,
     pub(crate) step: u64,
     pub(crate) energy: EnergyTotals,
     pub(crate) reactions: Vec<SVector<f64, D>>,
+    pub(crate) contact_forces: Vec<SVector<f64, D>>,
     pub(crate) edits: u64,
 }
 
@@ -57,11 +60,13 @@ impl<const D: usize> Scene<D> {
             kinematics,
             bodies: Vec::new(),
             conditions: Vec::new(),
+            contacts: Vec::new(),
             body_force: None,
             time: 0.0,
             step: 0,
             energy: EnergyTotals::default(),
             reactions: Vec::new(),
+            contact_forces: Vec::new(),
             // No two scenes count alike, so that a solver notices another scene too.
             edits: SCENES.fetch_add(1, Ordering::Relaxed) << 32,
         }
@@ -155,5 +160,6 @@ impl<const D: usize> Scene<D> {
         self.step = report.step;
         self.energy.add(&report.energy);
         self.reactions.clone_from(&report.reactions);
+        self.contact_forces.clone_from(&report.contact_forces);
     }
 }

@@ -1,4 +1,4 @@
-//! The unit of work: a run of at most 64 particles of one tile.
+//! The unit of work: a run of at most 64 particles of one window of nodes.
 
 use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
@@ -6,15 +6,15 @@ use fissure_tensor::Band;
 
 use crate::law::Constants;
 
-/// Consecutive particles of one body that lie in one tile of a grid.
+/// Consecutive particles of one body that reach into one window of a grid's nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
     /// First particle, as an index into the body's columns.
     pub start: u32,
     /// One past the last.
     pub end: u32,
-    /// Which tile; the solver's own numbering.
-    pub tile: u32,
+    /// Which window of nodes; the solver's own numbering.
+    pub window: u32,
 }
 
 impl Run {
@@ -44,7 +44,7 @@ impl KernelFailure {
     /// their order: the kernel, which stopped at the first, is asked for each one by itself.
     pub(crate) fn lowest<const D: usize>(
         self,
-        kernel: &mut dyn TileKernel<D>,
+        kernel: &mut dyn WindowKernel<D>,
         run: &Run,
         constants: &Constants<'_>,
         old: &MotionSlices<'_, D>,
@@ -56,7 +56,7 @@ impl KernelFailure {
             let alone = Run {
                 start,
                 end: start + 1,
-                tile: run.tile,
+                window: run.window,
             };
             let (old, _) = old.split_at(row).1.split_at(1);
             let (mut new, _) = new.reborrow().split_at(row).1.split_at(1);
@@ -80,33 +80,33 @@ pub struct RunConstants<'a> {
     pub volume: &'a [f64],
 }
 
-/// What a solver does with a body's particles before and after the law sees them, tile by tile.
+/// What a solver does with a body's particles before and after the law sees them, window by window.
 pub trait RunKernel<const D: usize>: Sync {
-    /// Opens a tile: calls `work` once, which hands over the body's runs in it one after another,
-    /// all on one thread. What the runs of a tile share (a window of nodes) is kept on the stack
+    /// Opens a window: calls `work` once, which hands over the body's runs in it one after another,
+    /// all on one thread. What the runs of a window share (its nodes' numbers) is kept on the stack
     /// of this call.
     ///
     /// # Errors
     /// What `work` returns.
-    fn on_tile(
+    fn on_window(
         &self,
-        tile: u32,
-        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+        window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure>;
 }
 
 /// A kernel that fills the trial motion by a function of a run and the present motion, which gives
-/// the failing row, and shares nothing within a tile.
+/// the failing row, and shares nothing within a window.
 pub struct ByRun<F>(pub F);
 
 impl<const D: usize, F> RunKernel<D> for ByRun<F>
 where
     F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize> + Sync,
 {
-    fn on_tile(
+    fn on_window(
         &self,
-        _tile: u32,
-        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+        _window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         work(&mut OneRun(&self.0))
     }
@@ -114,7 +114,7 @@ where
 
 struct OneRun<'a, F>(&'a F);
 
-impl<const D: usize, F> TileKernel<D> for OneRun<'_, F>
+impl<const D: usize, F> WindowKernel<D> for OneRun<'_, F>
 where
     F: Fn(&Run, &MotionSlices<'_, D>, &mut MotionSlicesMut<'_, D>) -> Result<(), usize>,
 {
@@ -131,8 +131,8 @@ where
     }
 }
 
-/// A kernel at work on a tile.
-pub trait TileKernel<const D: usize> {
+/// A kernel at work on a window.
+pub trait WindowKernel<const D: usize> {
     /// Fills the trial motion `new` (at least the deformation gradient) from the present one;
     /// both hold the particles of `run` only.
     ///

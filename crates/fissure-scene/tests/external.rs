@@ -3,7 +3,8 @@
 use fissure_materials::{Increment, Isotropic, Material, MaterialError, Matrix3, Response, Scale};
 use fissure_particles::{Block, MotionSlices, MotionSlicesMut, Spacing};
 use fissure_scene::{
-    External, KernelFailure, Plane, Run, RunConstants, RunKernel, Scene, SweepSettings, TileKernel,
+    External, KernelFailure, Plane, Run, RunConstants, RunKernel, Scene, SweepSettings,
+    WindowKernel,
 };
 use fissure_tensor::Band;
 
@@ -38,10 +39,10 @@ struct Field {
 }
 
 impl RunKernel<2> for Field {
-    fn on_tile(
+    fn on_window(
         &self,
-        _tile: u32,
-        work: &mut dyn FnMut(&mut dyn TileKernel<2>) -> Result<(), KernelFailure>,
+        _window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<2>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         work(&mut Stretch(self))
     }
@@ -49,7 +50,7 @@ impl RunKernel<2> for Field {
 
 struct Stretch<'a>(&'a Field);
 
-impl TileKernel<2> for Stretch<'_> {
+impl WindowKernel<2> for Stretch<'_> {
     fn gather(
         &mut self,
         _run: &Run,
@@ -98,7 +99,7 @@ fn a_damage_field_degrades_each_particle_by_its_own_value() {
         .map(|start| Run {
             start,
             end: (start + 7).min(count),
-            tile: 0,
+            window: 0,
         })
         .collect();
     let field = Field {

@@ -38,12 +38,12 @@ fn the_lowest_id_of_a_run_is_reported_whatever_the_order() {
         Run {
             start: 0,
             end: 23,
-            tile: 0,
+            window: 0,
         },
         Run {
             start: 23,
             end: count,
-            tile: 1,
+            window: 1,
         },
     ];
     let settings = SweepSettings {

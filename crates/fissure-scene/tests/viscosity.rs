@@ -37,7 +37,7 @@ fn squeezed(plane: Plane, viscosity: Option<Viscosity>) -> (Sym, [Matrix3<f64>; 
     let runs = [Run {
         start: 0,
         end: count,
-        tile: 0,
+        window: 0,
     }];
     let depth = match scene.kinematics() {
         Kinematics::PlaneStrain { thickness } | Kinematics::PlaneStress { thickness } => thickness,

@@ -170,9 +170,7 @@ impl<const D: usize> Constraints<D> {
                         tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
                     });
                     // A node whose tile is not held has no mass either.
-                    if let Some(node) = placement.node(node) {
-                        self.reached.push((node, index));
-                    }
+                    placement.each_field(node, |node| self.reached.push((node, index)));
                 }
             });
             Some(())

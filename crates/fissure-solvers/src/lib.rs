@@ -13,6 +13,7 @@ mod loads;
 mod nodes;
 mod placement;
 mod quasi_static;
+mod splits;
 mod transfers;
 mod window;
 

@@ -6,7 +6,6 @@ use nalgebra::SVector;
 
 use crate::placement::Placement;
 use crate::transfers::Transfers;
-use crate::window::WindowNodes;
 
 /// External forces at one time. Costs nothing in a scene that has none.
 pub(crate) struct Loads<'a, const D: usize> {
@@ -40,7 +39,7 @@ impl<'a, const D: usize> Loads<'a, D> {
             if let (ConditionKind::Force(force), Selection::Body { body, .. }) =
                 (condition.kind(), condition.selection())
             {
-                let count = transfers.placement.tiles.node_count();
+                let count = transfers.placement.node_count();
                 loads.forces.resize(count, SVector::zeros());
                 loads.spread(transfers, index, *body, force(time))?;
             }
@@ -63,10 +62,10 @@ impl<'a, const D: usize> Loads<'a, D> {
         let total: f64 = rows.iter().map(|&row| volume[row as usize]).sum();
         for &row in rows {
             let off_grid = (body_index, row as usize);
-            let tile = placement.tile_of_row(body_index, row).ok_or(off_grid)?;
-            let coordinates = placement.tiles.coordinates(tile);
+            let window = placement.window_of_row(body_index, row).ok_or(off_grid)?;
+            let coordinates = placement.coordinates(window);
             let stencil = transfers.stencil(body, coordinates, row as usize);
-            let nodes = WindowNodes::new(&placement.tiles, tile);
+            let nodes = placement.nodes(window);
             let share = force * (volume[row as usize] / total);
             stencil.ok_or(off_grid)?.visit_values(|entry, weight| {
                 self.forces[nodes.node(entry)] += share * weight;
@@ -83,7 +82,7 @@ impl<'a, const D: usize> Loads<'a, D> {
             force = *load;
         }
         if self.scene.has_body_force() {
-            let x = self.placement.tiles.node_position(self.grid, node);
+            let x = self.placement.node_position(self.grid, node);
             if let Some(acceleration) = self.scene.body_acceleration(&x, self.time) {
                 force += acceleration * mass;
             }

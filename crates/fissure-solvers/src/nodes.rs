@@ -76,6 +76,13 @@ impl<const D: usize> NodeSums<D> {
         }
     }
 
+    /// Gives a node another momentum, kg·m/s.
+    pub(crate) fn set_momentum(&mut self, node: usize, momentum: &SVector<f64, D>) {
+        for (sum, number) in self.nodes[node].0.iter_mut().zip(momentum) {
+            *sum.get_mut() = number.to_bits();
+        }
+    }
+
     #[inline]
     fn number(&self, node: usize, place: usize) -> f64 {
         f64::from_bits(self.nodes[node].0[place].load(Relaxed))

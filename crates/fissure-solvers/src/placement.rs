@@ -1,4 +1,4 @@
-//! Where the particles are: sorted by tile, cut into runs.
+//! Where the particles are: sorted by tile, cut into runs, and the nodes they reach.
 
 use fissure_grid::{Grid, Tiles, tile_of};
 use fissure_particles::sort_permutation;
@@ -6,13 +6,22 @@ use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
-/// Most colours of tiles, those of space.
-const COLOURS: usize = 8;
+use crate::splits::{SplitWindow, Splits};
+use crate::window::WindowNodes;
+
+/// Consecutive runs of a body in tiles of one colour and of one group: windows that do not overlap.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Batch {
+    pub body: usize,
+    pub runs: std::ops::Range<usize>,
+}
 
 /// Particles of a scene sorted by tile, and the runs they make.
 ///
 /// Tiles have 2^D colours, like a chessboard's two: the windows of tiles of one colour do not
 /// overlap. Particles are sorted by colour first, so that a pass can take one colour after another.
+/// Within a colour they are sorted by group (see [`Splits`]): windows of one tile but of two groups
+/// overlap too.
 ///
 /// Sorting is stable, and particles keep their order until one leaves the window of the tile it
 /// was sorted by (explicit solver) or that tile (quasi-static solver).
@@ -22,8 +31,10 @@ pub struct Placement<const D: usize> {
     pub tiles: Tiles<D>,
     /// Runs of each body.
     pub runs: Vec<Vec<Run>>,
-    /// Of each body, where the runs of each colour begin, and the end.
-    colours: Vec<[usize; COLOURS + 1]>,
+    /// All runs in the order in which a pass takes them.
+    batches: Vec<Batch>,
+    /// Nodes with more than one field.
+    pub(crate) splits: Splits,
     /// Present indices of the particles that each condition selects.
     selected: Vec<Vec<u32>>,
     edits: Option<u64>,
@@ -41,7 +52,8 @@ impl<const D: usize> Default for Placement<D> {
         Self {
             tiles: Tiles::new(),
             runs: Vec::new(),
-            colours: Vec::new(),
+            batches: Vec::new(),
+            splits: Splits::default(),
             selected: Vec::new(),
             edits: None,
             moved: false,
@@ -66,11 +78,10 @@ impl<const D: usize> Placement<D> {
 
     /// Notes whether a particle has left the tile of its run, after a step.
     pub(crate) fn note_moves(&mut self, grid: &Grid<D>, scene: &Scene<D>) {
-        let tiles = &self.tiles;
         self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {
             let position = body.motion().position;
             runs.par_iter().with_min_len(16).any(|run| {
-                let home = Some(tiles.coordinates(run.tile as usize));
+                let home = Some(self.coordinates(run.window));
                 let particles = &position[run.start as usize..run.end as usize];
                 particles.iter().any(|x| grid.cell(x).map(tile_of) != home)
             })
@@ -85,29 +96,43 @@ impl<const D: usize> Placement<D> {
         self.find_homes(grid, scene)?;
         self.tiles.rebuild(self.homes.iter().copied());
         self.runs.clear();
-        self.colours.clear();
+        let groups: Vec<u64> = (0..scene.bodies().len())
+            .map(|body| scene.velocity_field(body) as u64)
+            .collect();
+        let mut batches: Vec<(u64, Batch)> = Vec::new();
+        let mut occupied: Vec<(u32, u32)> = Vec::new();
         let mut first = 0;
-        for body in scene.bodies_mut() {
+        for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
             let count = body.particles().len();
             let homes = &self.homes[first..first + count];
             first += count;
             self.keys.clear();
             let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
-            let key = |&home| colour(home) << 32 | tile_index(home);
+            let key = |&home| colour(home) << 56 | groups[index] << 32 | tile_index(home);
             self.keys.extend(homes.iter().map(key));
             if !self.keys.is_sorted() {
                 sort_permutation(&self.keys, &mut self.order);
                 body.reorder(&self.order)?;
                 self.keys.sort_unstable();
             }
-            self.runs.push(cut_into_runs(&self.keys));
-            let first_key = |colour: usize| (colour as u64) << 32;
-            let run_key = |run: &Run| self.keys[run.start as usize];
-            let runs = self.runs.last().map_or(&[][..], |runs| runs);
-            self.colours.push(std::array::from_fn(|colour| {
-                runs.partition_point(|run| run_key(run) < first_key(colour))
-            }));
+            let runs = cut_into_runs(&self.keys);
+            let key_of = |run: &Run| self.keys[run.start as usize];
+            let mut start = 0;
+            for batch in runs.chunk_by(|a, b| key_of(a) >> 32 == key_of(b) >> 32) {
+                let end = start + batch.len();
+                let runs = start..end;
+                batches.push((key_of(&batch[0]) >> 56, Batch { body: index, runs }));
+                start = end;
+            }
+            occupied.extend(runs.iter().map(|run| (run.window, group_of(key_of(run)))));
+            self.runs.push(runs);
         }
+        // Stable: bodies in their order, and their groups.
+        batches.sort_by_key(|(colour, _)| *colour);
+        self.batches.clear();
+        self.batches
+            .extend(batches.into_iter().map(|(_, batch)| batch));
+        self.split(occupied);
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
@@ -135,7 +160,7 @@ impl<const D: usize> Placement<D> {
         let mut memory = Vec::new();
         for run in self.runs.iter().flatten() {
             memory.push(run.len() as f64);
-            let coordinates = self.tiles.coordinates(run.tile as usize);
+            let coordinates = self.coordinates(run.window);
             memory.extend(coordinates.map(f64::from));
         }
         memory
@@ -153,17 +178,68 @@ impl<const D: usize> Placement<D> {
         self.edits = None;
     }
 
-    /// Runs of a body in the tiles of one colour: tiles whose windows do not overlap.
-    pub(crate) fn runs_of_colour(&self, body: usize, colour: usize) -> &[Run] {
-        let bounds = &self.colours[body];
-        &self.runs[body][bounds[colour]..bounds[colour + 1]]
+    /// Splits nodes where groups meet, and turns the runs' tiles into windows.
+    fn split(&mut self, mut occupied: Vec<(u32, u32)>) {
+        let group = occupied.first().map(|&(_, group)| group);
+        if occupied.iter().all(|&(_, other)| Some(other) == group) {
+            self.splits = Splits::default();
+            return;
+        }
+        let of_runs = occupied.clone();
+        occupied.sort_unstable();
+        occupied.dedup();
+        self.splits.rebuild(&self.tiles, &occupied);
+        let plain = self.tiles.len();
+        for (run, (tile, group)) in self.runs.iter_mut().flatten().zip(of_runs) {
+            if let Some(split) = self.splits.find(tile, group) {
+                run.window = (plain + split) as u32;
+            }
+        }
     }
 
-    /// The tile whose runs hold a particle, by its present index.
-    pub(crate) fn tile_of_row(&self, body: usize, row: u32) -> Option<usize> {
+    /// Sets of runs whose windows do not overlap, one after another, with the body they are of.
+    pub(crate) fn batches(&self) -> impl Iterator<Item = (usize, &[Run])> {
+        let batches = self.batches.iter();
+        batches.map(|batch| (batch.body, &self.runs[batch.body][batch.runs.clone()]))
+    }
+
+    /// The window whose runs hold a particle, by its present index.
+    pub(crate) fn window_of_row(&self, body: usize, row: u32) -> Option<u32> {
         let runs = &self.runs[body];
         let run = runs.partition_point(|run| run.end <= row);
-        runs.get(run).map(|run| run.tile as usize)
+        runs.get(run).map(|run| run.window)
+    }
+
+    /// A window with split nodes.
+    pub(crate) fn split_window(&self, window: u32) -> Option<&SplitWindow> {
+        let split = (window as usize).checked_sub(self.tiles.len())?;
+        self.splits.windows.get(split)
+    }
+
+    /// Coordinates of the tile of a window.
+    pub(crate) fn coordinates(&self, window: u32) -> [i32; D] {
+        let tile = self.split_window(window).map_or(window, |split| split.tile);
+        self.tiles.coordinates(tile as usize)
+    }
+
+    /// The nodes of a window.
+    pub(crate) fn nodes(&self, window: u32) -> WindowNodes<'_, D> {
+        match self.split_window(window) {
+            Some(split) => WindowNodes::of_split(&split.nodes),
+            None => WindowNodes::of_tile(&self.tiles, window as usize),
+        }
+    }
+
+    /// Number of nodes, those of further fields included.
+    pub(crate) fn node_count(&self) -> usize {
+        self.tiles.node_count() + self.splits.origins.len()
+    }
+
+    /// Position of a node, m.
+    pub(crate) fn node_position(&self, grid: &Grid<D>, node: usize) -> SVector<f64, D> {
+        let further = node.checked_sub(self.tiles.node_count());
+        let origin = further.map_or(node, |extra| self.splits.origins[extra] as usize);
+        self.tiles.node_position(grid, origin)
     }
 
     /// Takes the scene as it is after a step for known.
@@ -176,13 +252,20 @@ impl<const D: usize> Placement<D> {
         &self.selected[condition]
     }
 
-    /// The node of a grid index, if its tile is held.
-    pub(crate) fn node(&self, index: [i32; D]) -> Option<usize> {
-        let tile = self.tiles.find(tile_of(index))?;
+    /// Calls `visit` with the node of a grid index, if its tile is held, and those of its further
+    /// fields.
+    pub(crate) fn each_field(&self, index: [i32; D], mut visit: impl FnMut(usize)) {
+        let Some(tile) = self.tiles.find(tile_of(index)) else {
+            return;
+        };
         let local = (0..D)
             .rev()
             .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
-        Some(tile * Tiles::<D>::NODES + local)
+        let node = tile * Tiles::<D>::NODES + local;
+        visit(node);
+        for copy in self.splits.copies_of(node).skip(1) {
+            visit(self.splits.copies[copy].node as usize);
+        }
     }
 
     fn index_selected(&mut self, scene: &Scene<D>) {
@@ -265,6 +348,11 @@ fn colour<const D: usize>(tile: [i32; D]) -> u64 {
     (0..D).map(odd).sum()
 }
 
+/// The group in a key.
+fn group_of(key: u64) -> u32 {
+    (key >> 32) as u32 & 0xff_ffff
+}
+
 /// Consecutive equal keys in pieces of at most [`Run::MAX`].
 fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
     let mut runs = Vec::new();
@@ -274,7 +362,7 @@ fn cut_into_runs(keys: &[u64]) -> Vec<Run> {
             runs.push(Run {
                 start: start as u32,
                 end: (start + piece.len()) as u32,
-                tile: (group[0] & u64::from(u32::MAX)) as u32,
+                window: (group[0] & u64::from(u32::MAX)) as u32,
             });
             start += piece.len();
         }

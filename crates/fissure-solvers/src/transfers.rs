@@ -1,18 +1,18 @@
 //! From particles to nodes without the law in between, and what every transfer needs.
 //!
-//! A tile's particles are summed into a window on the stack of one thread and the window is added
-//! to the nodes. Tiles are worked on colour by colour: those of a colour have no node in common,
+//! The particles of a window are summed into a window on the stack of one thread and the window is added
+//! to the nodes. Batches of windows are worked on one by one: those of a batch have no node in common,
 //! so every sum has one order and the same bits on any number of threads.
 
 use fissure_grid::simd::{Lanes, Simd, SimdTask};
 use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencil};
-use fissure_scene::{Body, Kinematics, Run, Scene, for_each_tile};
+use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
 use fissure_tensor::Sym;
 use nalgebra::{SMatrix, SVector};
 
 use crate::nodes::{Field, NodeSums};
 use crate::placement::Placement;
-use crate::window::{WindowNodes, WindowSums};
+use crate::window::WindowSums;
 
 /// The discretisation of a scene: everything a transfer needs besides the particles' numbers.
 pub(crate) struct Transfers<'a, S, const D: usize> {
@@ -107,13 +107,13 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &mut NodeSums<D>,
         give: impl Fn(&Body<D>, usize) -> Gift<D> + Sync,
     ) -> Result<(), (usize, usize)> {
-        self.each_tile(scene, sums, &|body_index, runs, sums| match D {
-            2 => self.spread_tile::<64, MOMENT>(scene, body_index, runs, sums, &give),
-            _ => self.spread_tile::<512, MOMENT>(scene, body_index, runs, sums, &give),
+        self.each_window(sums, &|body_index, runs, sums| match D {
+            2 => self.spread_window::<64, MOMENT>(scene, body_index, runs, sums, &give),
+            _ => self.spread_window::<512, MOMENT>(scene, body_index, runs, sums, &give),
         })
     }
 
-    fn spread_tile<const N: usize, const MOMENT: bool>(
+    fn spread_window<const N: usize, const MOMENT: bool>(
         &self,
         scene: &Scene<D>,
         body_index: usize,
@@ -121,19 +121,18 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &NodeSums<D>,
         give: &(impl Fn(&Body<D>, usize) -> Gift<D> + Sync),
     ) -> Result<(), (usize, usize)> {
-        let tiles = &self.placement.tiles;
-        let tile = runs[0].tile as usize;
+        let number = runs[0].window;
         let mut window = WindowSums::<N>::zero();
         let task = SpreadRuns::<'_, S, _, D, MOMENT> {
             transfers: self,
             body: &scene.bodies()[body_index],
-            tile: tiles.coordinates(tile),
+            tile: self.placement.coordinates(number),
             runs,
             give,
             window: &mut window.0,
         };
         self.simd.run(task).map_err(|index| (body_index, index))?;
-        WindowNodes::new(tiles, tile).add(&window.0, sums);
+        self.placement.nodes(number).add(&window.0, sums);
         Ok(())
     }
 
@@ -148,13 +147,13 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         field: &Field,
         sums: &mut NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
-        self.each_tile(scene, sums, &|body_index, runs, sums| match D {
-            2 => self.relay_tile::<64, 65>(scene, body_index, runs, field, sums),
-            _ => self.relay_tile::<512, 513>(scene, body_index, runs, field, sums),
+        self.each_window(sums, &|body_index, runs, sums| match D {
+            2 => self.relay_window::<64, 65>(scene, body_index, runs, field, sums),
+            _ => self.relay_window::<512, 513>(scene, body_index, runs, field, sums),
         })
     }
 
-    fn relay_tile<const N: usize, const PADDED: usize>(
+    fn relay_window<const N: usize, const PADDED: usize>(
         &self,
         scene: &Scene<D>,
         body_index: usize,
@@ -162,16 +161,15 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         field: &Field,
         sums: &NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
-        let tiles = &self.placement.tiles;
-        let tile = runs[0].tile as usize;
-        let nodes = WindowNodes::new(tiles, tile);
+        let number = runs[0].window;
+        let nodes = self.placement.nodes(number);
         let mut values = [[0.0; FIELD]; PADDED];
         nodes.load(field, &mut values);
         let mut window = WindowSums::<N>::zero();
         let task = RelayRuns {
             transfers: self,
             body: &scene.bodies()[body_index],
-            tile: tiles.coordinates(tile),
+            tile: self.placement.coordinates(number),
             runs,
             values: values.as_flattened(),
             window: &mut window.0,
@@ -181,20 +179,16 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         Ok(())
     }
 
-    /// Clears the sums and calls `work` on every tile of every body, colour by colour.
-    fn each_tile(
+    /// Clears the sums and calls `work` on every window of every body, batch by batch.
+    fn each_window(
         &self,
-        scene: &Scene<D>,
         sums: &mut NodeSums<D>,
         work: &(impl Fn(usize, &[Run], &NodeSums<D>) -> Result<(), (usize, usize)> + Sync),
     ) -> Result<(), (usize, usize)> {
-        sums.clear(self.placement.tiles.node_count());
+        sums.clear(self.placement.node_count());
         let sums = &*sums;
-        for colour in 0..1 << D {
-            for body in 0..scene.bodies().len() {
-                let runs = self.placement.runs_of_colour(body, colour);
-                for_each_tile(runs, &|runs| work(body, runs, sums))?;
-            }
+        for (body, runs) in self.placement.batches() {
+            for_each_window(runs, &|runs| work(body, runs, sums))?;
         }
         Ok(())
     }

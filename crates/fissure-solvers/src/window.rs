@@ -4,15 +4,18 @@ use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, window_map};
 
 use crate::nodes::NodeSums;
 
-/// Where the nodes of a tile's window are.
-pub(crate) struct WindowNodes<const D: usize> {
+/// Where the nodes of a window are.
+pub(crate) struct WindowNodes<'a, const D: usize> {
     /// First node of each of the tiles around.
     bases: [usize; 27],
     map: &'static [(u8, u8)],
+    /// The node of every entry, where some are split.
+    split: Option<&'a [u32]>,
 }
 
-impl<const D: usize> WindowNodes<D> {
-    pub(crate) fn new(tiles: &Tiles<D>, tile: usize) -> Self {
+impl<'a, const D: usize> WindowNodes<'a, D> {
+    /// The plain window of a tile.
+    pub(crate) fn of_tile(tiles: &Tiles<D>, tile: usize) -> Self {
         let mut bases = [0; 27];
         for (base, &around) in bases.iter_mut().zip(tiles.around(tile)) {
             *base = around as usize * Tiles::<D>::NODES;
@@ -20,12 +23,25 @@ impl<const D: usize> WindowNodes<D> {
         Self {
             bases,
             map: window_map::<D>(),
+            split: None,
+        }
+    }
+
+    /// The window of these nodes.
+    pub(crate) fn of_split(nodes: &'a [u32]) -> Self {
+        Self {
+            bases: [0; 27],
+            map: window_map::<D>(),
+            split: Some(nodes),
         }
     }
 
     /// Node of a window entry.
     #[inline]
     pub(crate) fn node(&self, entry: usize) -> usize {
+        if let Some(nodes) = self.split {
+            return nodes[entry] as usize;
+        }
         let (neighbour, local) = self.map[entry];
         self.bases[neighbour as usize] + local as usize
     }
@@ -33,6 +49,12 @@ impl<const D: usize> WindowNodes<D> {
     /// Calls `row(entry, node, count)` for each stretch of entries whose nodes stand side by side.
     #[inline(always)]
     fn rows(&self, mut row: impl FnMut(usize, usize, usize)) {
+        if let Some(nodes) = self.split {
+            for (entry, &node) in nodes.iter().enumerate() {
+                row(entry, node as usize, 1);
+            }
+            return;
+        }
         // Two nodes of the tile below along axis 0, four of the tile itself, two of the one above.
         for start in (0..self.map.len()).step_by(WINDOW as usize) {
             for (offset, count) in [(0, 2), (2, 4), (6, 2)] {

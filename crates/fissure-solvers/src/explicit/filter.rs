@@ -8,6 +8,7 @@ use fissure_grid::{FIELD, Shape};
 use fissure_scene::Scene;
 use nalgebra::SVector;
 
+use super::contact::Meetings;
 use super::grid_update::each_node;
 use crate::constraints::Constraints;
 use crate::nodes::{Field, NodeSums, element, vector};
@@ -32,6 +33,7 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
     sums: &mut NodeSums<D>,
     mut term: Field,
     order: usize,
+    meetings: &Meetings<D>,
     mut held: Option<Held<'_, D>>,
 ) -> Result<Field, (usize, usize)> {
     let mut coefficient = order as f64;
@@ -40,6 +42,7 @@ pub(crate) fn filter<S: Shape<D>, const D: usize>(
     let mut filtered: Field = term.iter().map(scaled).collect();
     for r in 2..=order {
         transfers.relay(scene, &term, sums)?;
+        meetings.bond(sums);
         coefficient *= -((order + 1 - r) as f64) / r as f64;
         from_here_on *= -((order + 1 - r) as f64) / (r - 1) as f64;
         let relayed = &*sums;

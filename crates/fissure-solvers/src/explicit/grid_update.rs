@@ -5,6 +5,7 @@ use fissure_scene::{Report, Scene, StepEnergy};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
+use super::contact::{Gap, Meetings};
 use crate::constraints::Constraints;
 use crate::loads::Loads;
 use crate::nodes::{Field, NodeSums, element, vector};
@@ -25,6 +26,7 @@ pub(crate) struct NodeForces<'a, const D: usize> {
     pub sums: &'a NodeSums<D>,
     pub loads: &'a Loads<'a, D>,
     pub constraints: &'a Constraints<D>,
+    pub meetings: &'a Meetings<D>,
     /// Mass below which a node feels no force, kg.
     pub lightest: f64,
     pub dt: f64,
@@ -45,6 +47,7 @@ impl<const D: usize> NodeForces<'_, D> {
             }
             *end = element(&velocity, mass > 0.0);
         });
+        let impulses = self.meetings.part(sums, &mut nodes.end, dt, Gap::Start);
         let mut energy = StepEnergy::default();
         let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
         for held in &self.constraints.held {
@@ -61,6 +64,7 @@ impl<const D: usize> NodeForces<'_, D> {
             }
         }
         self.book_energy(&nodes.end, &mut energy);
+        energy.contact = self.meetings.energy(sums, &nodes.end, &impulses);
         if gains {
             nodes.carried.resize(sums.len(), Default::default());
             let end = &nodes.end;
@@ -75,6 +79,7 @@ impl<const D: usize> NodeForces<'_, D> {
             dt,
             energy,
             reactions,
+            contact_forces: self.meetings.forces(scene, &impulses, dt),
             iterations: 0,
         }
     }

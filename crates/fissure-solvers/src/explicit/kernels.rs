@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use fissure_grid::simd::{Lanes, SimdTask};
 use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencil};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
-use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, TileKernel};
+use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::settings::Transfer;
 use crate::nodes::{Field, MASSIVE, NodeSums, vector};
 use crate::transfers::{Transfers, add_stress, momentum_gift};
-use crate::window::{WindowNodes, WindowSums};
+use crate::window::WindowSums;
 
 /// What particles give to the nodes at the end of a pass over them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,26 +54,26 @@ pub(crate) struct StepKernel<'a, S, const D: usize> {
 }
 
 impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
-    fn on_tile(
+    fn on_window(
         &self,
-        tile: u32,
-        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+        window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         match D {
-            2 => self.on_tile_of::<64, 65>(tile as usize, work),
-            _ => self.on_tile_of::<512, 513>(tile as usize, work),
+            2 => self.on_window_of::<64, 65>(window, work),
+            _ => self.on_window_of::<512, 513>(window, work),
         }
     }
 }
 
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
-    fn on_tile_of<const N: usize, const PADDED: usize>(
+    fn on_window_of<const N: usize, const PADDED: usize>(
         &self,
-        tile: usize,
-        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+        window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
-        let tiles = &self.transfers.placement.tiles;
-        let nodes = WindowNodes::new(tiles, tile);
+        let placement = self.transfers.placement;
+        let nodes = placement.nodes(window);
         let mut field = [[0.0; FIELD]; PADDED];
         nodes.load(self.field, &mut field);
         let carried = self.carried.map(|carried| {
@@ -84,7 +84,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
         let mut sums = WindowSums::<N>::zero();
         let done = work(&mut Tile {
             pass: self,
-            coordinates: tiles.coordinates(tile),
+            coordinates: placement.coordinates(window),
             field: field.as_flattened(),
             carried: carried.as_ref().map(|values| values.as_flattened()),
             sums: &mut sums.0,
@@ -107,7 +107,7 @@ struct Tile<'a, S, const D: usize> {
     sums: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Shape<D>, const D: usize> TileKernel<D> for Tile<'_, S, D> {
+impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
     fn gather(
         &mut self,
         run: &Run,

@@ -6,6 +6,7 @@ use fissure_grid::Shape;
 use fissure_scene::{Body, Report, Scene, SolveError, SweepSettings, SweepTotals, Viscosity};
 use nalgebra::SVector;
 
+use super::contact::{Gap, Meetings};
 use super::filter::{Held, filter};
 use super::grid_update::{NodeForces, Nodes, each_node};
 use super::kernels::{Giving, StepKernel};
@@ -30,6 +31,8 @@ pub(crate) struct Phases<'a, S, const D: usize> {
     /// Time at its start, s.
     pub time: f64,
     pub strayed: &'a AtomicBool,
+    /// Where bodies with a contact meet.
+    pub meetings: &'a Meetings<D>,
 }
 
 /// One pass over all particles.
@@ -78,11 +81,12 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
 impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
     /// Held velocities of the sums' momenta: what strains in the schemes with the stress first and
     /// MUSL.
-    pub(crate) fn straining(&self, sums: &NodeSums<D>, straining: &mut Field) {
+    pub(crate) fn straining(&self, sums: &NodeSums<D>, straining: &mut Field, gap: Gap) {
         straining.resize(sums.len(), Default::default());
         each_node(straining, |node, v| {
             *v = element(&sums.velocity(node), sums.mass(node) > 0.0);
         });
+        self.meetings.part(sums, straining, self.dt, gap);
         for held in &self.constraints.held {
             let velocity = held.apply(&vector(&straining[held.node]));
             straining[held.node] = element(&velocity, sums.mass(held.node) > 0.0);
@@ -102,6 +106,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             sums,
             loads: &loads,
             constraints: self.constraints,
+            meetings: self.meetings,
             lightest: self.settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
             dt: self.dt,
         };
@@ -129,7 +134,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 each_node(&mut start, |node, v| {
                     *v = element(&sums.velocity(node), true);
                 });
-                filter(transfers, scene, sums, start, order, None)
+                filter(transfers, scene, sums, start, order, self.meetings, None)
             }
             Transfer::Fmpm { order } => {
                 let mut impulses = vec![SVector::zeros(); reactions.len()];
@@ -138,7 +143,15 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                     impulses: &mut impulses,
                 };
                 let end = nodes.end.clone();
-                let filtered = filter(transfers, scene, sums, end, order, Some(held));
+                let filtered = filter(
+                    transfers,
+                    scene,
+                    sums,
+                    end,
+                    order,
+                    self.meetings,
+                    Some(held),
+                );
                 for (reaction, impulse) in reactions.iter_mut().zip(&impulses) {
                     *reaction += impulse / self.dt;
                 }
@@ -167,7 +180,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         sums: &mut NodeSums<D>,
         pass: Pass<'_>,
     ) -> Result<SweepTotals, SolveError> {
-        sums.clear(self.transfers.placement.tiles.node_count());
+        sums.clear(self.transfers.placement.node_count());
         let Transfers {
             shape,
             grid,
@@ -175,19 +188,18 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             ..
         } = self.transfers;
         let mut totals = SweepTotals::default();
-        for colour in 0..1 << D {
-            for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
-                let kernel = self.kernel(body, sums, pass);
-                let sweep = SweepSettings {
-                    dt: self.dt,
-                    band: self.settings.band.band(shape, grid, body),
-                    viscosity: self.viscosity(),
-                };
-                let part = body
-                    .sweep(placement.runs_of_colour(index, colour), &kernel, &sweep)
-                    .map_err(|failure| failure.at(body, self.step, self.time))?;
-                totals = totals.merge(part);
-            }
+        for (index, runs) in placement.batches() {
+            let body = &mut scene.bodies_mut()[index];
+            let kernel = self.kernel(body, sums, pass);
+            let sweep = SweepSettings {
+                dt: self.dt,
+                band: self.settings.band.band(shape, grid, body),
+                viscosity: self.viscosity(),
+            };
+            let part = body
+                .sweep(runs, &kernel, &sweep)
+                .map_err(|failure| failure.at(body, self.step, self.time))?;
+            totals = totals.merge(part);
         }
         Ok(totals)
     }
@@ -200,13 +212,12 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         pass: Pass<'_>,
     ) -> Result<(), SolveError> {
         let placement = self.transfers.placement;
-        sums.clear(placement.tiles.node_count());
-        for colour in 0..1 << D {
-            for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
-                let kernel = self.kernel(body, sums, pass);
-                body.move_runs(placement.runs_of_colour(index, colour), &kernel)
-                    .map_err(|failure| failure.at(body, self.step, self.time))?;
-            }
+        sums.clear(placement.node_count());
+        for (index, runs) in placement.batches() {
+            let body = &mut scene.bodies_mut()[index];
+            let kernel = self.kernel(body, sums, pass);
+            body.move_runs(runs, &kernel)
+                .map_err(|failure| failure.at(body, self.step, self.time))?;
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ use fissure_grid::{Grid, Shape};
 use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use rayon::prelude::*;
 
+use super::contact::{Gap, Meetings};
 use super::grid_update::Nodes;
 use super::kernels::Giving;
 use super::phases::{Pass, Phases, to_grid};
@@ -29,6 +30,7 @@ pub struct Explicit<S, const D: usize> {
     /// Whether a particle has left its tile's window.
     strayed: AtomicBool,
     nodes: Nodes,
+    meetings: Meetings<D>,
     /// Fastest wave plus fastest particle, m/s; `None` before the first step.
     fastest: Option<f64>,
     /// Whether `fastest` was recalled from a checkpoint and the scene restored after.
@@ -52,6 +54,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             summed: false,
             strayed: AtomicBool::new(false),
             nodes: Nodes::default(),
+            meetings: Meetings::default(),
             fastest: None,
             recalled: false,
         })
@@ -151,19 +154,25 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             sums,
             nodes,
             strayed,
+            meetings,
             ..
         } = self;
         // Nodes are held at the velocities of the end of the step.
         let end = scene.time() + dt;
         constraints.collect(scene, grid, shape, placement, end)?;
+        let transfers = Transfers {
+            grid,
+            shape,
+            placement,
+            kinematics: scene.kinematics(),
+            simd: settings.simd,
+        };
+        // Two bodies that run into each other at the fastest speed.
+        let margin = 2.0 * settings.cfl * grid.spacing();
+        meetings.find(&transfers, scene, margin)?;
         let phases = Phases {
-            transfers: Transfers {
-                grid,
-                shape,
-                placement,
-                kinematics: scene.kinematics(),
-                simd: settings.simd,
-            },
+            transfers,
+            meetings,
             constraints,
             settings,
             dt,
@@ -174,11 +183,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         if !std::mem::take(&mut self.summed) {
             to_grid(&phases.transfers, settings, scene, sums)?;
         }
+        phases.meetings.bond(sums);
 
         let mut totals = SweepTotals::default();
         let stress_update = settings.stress_update;
         if stress_update == StressUpdate::First {
-            phases.straining(sums, &mut nodes.straining);
+            phases.straining(sums, &mut nodes.straining, Gap::Start);
             let pass = Pass {
                 field: &nodes.straining,
                 carried: None,
@@ -187,6 +197,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                 giving: Giving::AllBack,
             };
             totals = phases.sweep(scene, sums, pass)?;
+            phases.meetings.bond(sums);
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
@@ -207,7 +218,8 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             StressUpdate::Musl => {
                 pass.giving = Giving::MomentumBack;
                 phases.move_particles(scene, sums, pass)?;
-                phases.straining(sums, &mut nodes.straining);
+                phases.meetings.bond(sums);
+                phases.straining(sums, &mut nodes.straining, Gap::End(&nodes.end));
                 let pass = Pass {
                     field: &nodes.straining,
                     carried: None,

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use super::freedoms::{Freedoms, NONE};
 use super::sparse::{Singular, SparseSystem};
 use crate::transfers::Transfers;
-use crate::window::WindowNodes;
 
 /// A weight, or a gradient times the spacing, below this is round-off of a node that is not reached.
 const REACHED: f64 = 1e-14;
@@ -59,9 +58,8 @@ impl<const D: usize> Assembly<D> {
         for (body_index, body) in scene.bodies().iter().enumerate() {
             for run in &placement.runs[body_index] {
                 self.runs.push((body_index, *run, self.starts.len()));
-                let tile = run.tile as usize;
-                let nodes = WindowNodes::new(&placement.tiles, tile);
-                let coordinates = placement.tiles.coordinates(tile);
+                let nodes = placement.nodes(run.window);
+                let coordinates = placement.coordinates(run.window);
                 for index in run.start as usize..run.end as usize {
                     let stencil = transfers.stencil(body, coordinates, index);
                     let stencil = stencil.ok_or((body_index, index))?;

@@ -2,7 +2,7 @@
 
 use fissure_grid::{Shape, Stencil};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
-use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, TileKernel};
+use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::{SMatrix, SVector};
 
 use crate::transfers::Transfers;
@@ -18,27 +18,27 @@ pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
 }
 
 impl<S: Shape<D>, const D: usize> RunKernel<D> for DisplacementKernel<'_, S, D> {
-    fn on_tile(
+    fn on_window(
         &self,
-        tile: u32,
-        work: &mut dyn FnMut(&mut dyn TileKernel<D>) -> Result<(), KernelFailure>,
+        window: u32,
+        work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
-        let tiles = &self.transfers.placement.tiles;
+        let placement = self.transfers.placement;
         work(&mut Tile {
             step: self,
-            nodes: WindowNodes::new(tiles, tile as usize),
-            coordinates: tiles.coordinates(tile as usize),
+            nodes: placement.nodes(window),
+            coordinates: placement.coordinates(window),
         })
     }
 }
 
 struct Tile<'a, S, const D: usize> {
     step: &'a DisplacementKernel<'a, S, D>,
-    nodes: WindowNodes<D>,
+    nodes: WindowNodes<'a, D>,
     coordinates: [i32; D],
 }
 
-impl<S: Shape<D>, const D: usize> TileKernel<D> for Tile<'_, S, D> {
+impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
     fn gather(
         &mut self,
         run: &Run,

@@ -100,6 +100,11 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 self.next_step = self.settings.step;
             }
             check_columns(scene)?;
+            if !scene.contacts().is_empty() {
+                return Err(SolveError::Unsupported {
+                    what: "contact between bodies in a quasi-static step",
+                });
+            }
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
         self.placement.update(&self.grid, scene)
@@ -143,7 +148,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         assembly
             .link(&transfers, scene)
             .map_err(|failed| off_grid(scene, failed))?;
-        let reached = assembly.reached(placement.tiles.node_count());
+        let reached = assembly.reached(placement.node_count());
         freedoms.number(reached.len(), |node| reached[node], constraints);
         // The sums hold the internal forces afterwards.
         momenta(&transfers, scene, internal).map_err(|failed| off_grid(scene, failed))?;
@@ -266,6 +271,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 ..StepEnergy::default()
             },
             reactions: equilibrium.reactions,
+            contact_forces: Vec::new(),
             iterations: equilibrium.iterations,
         };
         scene.record(&report);

@@ -1,0 +1,265 @@
+//! Contact where two fields meet at a node.
+//!
+//! At a node with the fields `a` and `b` the normal is that of the plane between their particles, from `a` to `b`
+//! (`plane`). The gap is measured between particles, not nodes, so that bodies do not feel each other from cells away:
+//! `g = min_b (x·n − r) − max_a (x·n + r)` over the particles that reach the node, with their extents `r` along the
+//! normal.
+//!
+//! A step may close the gap and no more: the relative normal velocity after it is at least `−max(g, 0)/Δt`. The impulse
+//! this takes is limited from below by zero, the tangential one by friction times it. Fields without a contact between
+//! them get a common velocity, as if they were one. Three and more fields at a node are treated pair by pair with
+//! impulses that add up (projected Gauss-Seidel).
+
+mod plane;
+mod surface;
+
+use fissure_grid::Shape;
+use fissure_scene::{Scene, SolveError};
+use nalgebra::SVector;
+use rayon::prelude::*;
+
+use self::plane::normal_between;
+use self::surface::Surface;
+use crate::nodes::{Field, MASSIVE, NodeSums, element, vector};
+use crate::placement::outside;
+use crate::transfers::Transfers;
+
+/// Rounds over the pairs of a node where more than two fields meet.
+const ROUNDS: usize = 30;
+
+/// When the gap is taken.
+#[derive(Clone, Copy)]
+pub(crate) enum Gap<'f> {
+    /// Before the particles have moved.
+    Start,
+    /// After they have moved with this field.
+    End(&'f Field),
+}
+
+/// Two fields at a node.
+#[derive(Clone, Copy, Debug)]
+struct Meeting<const D: usize> {
+    /// Their nodes.
+    nodes: [usize; 2],
+    /// What they do to each other; `None` for a bond.
+    law: Option<Law>,
+    /// From the first to the second; zero for a bond.
+    normal: SVector<f64, D>,
+    /// m; negative where they overlap.
+    gap: f64,
+}
+
+/// The contact of two fields.
+#[derive(Clone, Copy, Debug)]
+struct Law {
+    /// Its index in the scene.
+    contact: usize,
+    /// Whether the field of its second body comes second.
+    in_order: bool,
+    friction: f64,
+}
+
+/// Where fields meet in a step.
+#[derive(Debug, Default)]
+pub(crate) struct Meetings<const D: usize> {
+    meetings: Vec<Meeting<D>>,
+    /// Where the meetings of each split node begin, and the end.
+    starts: Vec<u32>,
+}
+
+/// Impulses on the second field of every meeting, kg·m/s.
+pub(crate) type Impulses<const D: usize> = Vec<SVector<f64, D>>;
+
+impl<const D: usize> Meetings<D> {
+    /// Finds the meetings, with normals and gaps at the start of a step in which nothing moves by
+    /// more than `margin`, m.
+    ///
+    /// # Errors
+    /// A particle off the grid.
+    pub(crate) fn find<S: Shape<D>>(
+        &mut self,
+        transfers: &Transfers<'_, S, D>,
+        scene: &Scene<D>,
+        margin: f64,
+    ) -> Result<(), SolveError> {
+        self.meetings.clear();
+        self.starts.clear();
+        let splits = &transfers.placement.splits;
+        if splits.copies.is_empty() {
+            return Ok(());
+        }
+        let off_grid = |(body, index)| outside(scene, body, index);
+        let surface = Surface { transfers, scene };
+        let bounds = surface.bounds().map_err(off_grid)?;
+        let (mut wanted, mut copies) = (vec![false; bounds.len()], Vec::new());
+        for here in splits.nodes() {
+            self.starts.push(self.meetings.len() as u32);
+            for (a, b) in pairs(here) {
+                if bounds[a].is_empty() || bounds[b].is_empty() {
+                    continue;
+                }
+                let pair = [splits.copies[a], splits.copies[b]];
+                let law = law(scene, pair.map(|copy| copy.group));
+                if law.is_some() {
+                    if !bounds[a].is_near(&bounds[b], margin) {
+                        continue;
+                    }
+                    (wanted[a], wanted[b]) = (true, true);
+                }
+                copies.push((a, b));
+                self.meetings.push(Meeting {
+                    nodes: pair.map(|copy| copy.node as usize),
+                    law,
+                    normal: SVector::zeros(),
+                    gap: 0.0,
+                });
+            }
+        }
+        self.starts.push(self.meetings.len() as u32);
+        let clouds = surface.clouds(&wanted).map_err(off_grid)?;
+        self.meetings
+            .par_iter_mut()
+            .zip(copies)
+            .filter(|(meeting, _)| meeting.law.is_some())
+            .for_each(|(meeting, (a, b))| {
+                let (a, b) = (&clouds[a], &clouds[b]);
+                meeting.normal = normal_between(&a.places, &b.places);
+                meeting.gap = -(a.extent(&meeting.normal) + b.extent(&-meeting.normal));
+            });
+        Ok(())
+    }
+
+    /// Gives bonded fields a common velocity, as if their particles had been summed to one node.
+    pub(crate) fn bond(&self, sums: &mut NodeSums<D>) {
+        for pair in self.starts.windows(2) {
+            let here = &self.meetings[pair[0] as usize..pair[1] as usize];
+            let rounds = if here.len() > 1 { ROUNDS } else { 1 };
+            let bonds = here.iter().filter(|meeting| meeting.law.is_none());
+            for Meeting { nodes, .. } in (0..rounds).flat_map(|_| bonds.clone()) {
+                let masses = nodes.map(|node| sums.mass(node));
+                let mass = masses[0] + masses[1];
+                if mass > 0.0 {
+                    let common = (sums.momentum(nodes[0]) + sums.momentum(nodes[1])) / mass;
+                    for (&node, own) in nodes.iter().zip(masses) {
+                        sums.set_momentum(node, &(common * own));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Changes the velocities in `field` so that no gap is more than closed within `dt`.
+    pub(crate) fn part(
+        &self,
+        sums: &NodeSums<D>,
+        field: &mut Field,
+        dt: f64,
+        gap: Gap<'_>,
+    ) -> Impulses<D> {
+        let mut impulses = vec![SVector::zeros(); self.meetings.len()];
+        for pair in self.starts.windows(2) {
+            let here = pair[0] as usize..pair[1] as usize;
+            let rounds = if here.len() > 1 { ROUNDS } else { 1 };
+            for _ in 0..rounds {
+                for k in here.clone() {
+                    self.part_pair(k, sums, field, dt, gap, &mut impulses[k]);
+                }
+            }
+        }
+        impulses
+    }
+
+    fn part_pair(
+        &self,
+        k: usize,
+        sums: &NodeSums<D>,
+        field: &mut Field,
+        dt: f64,
+        gap: Gap<'_>,
+        impulse: &mut SVector<f64, D>,
+    ) {
+        let meeting = &self.meetings[k];
+        let [a, b] = meeting.nodes;
+        let (mass_a, mass_b) = (sums.mass(a), sums.mass(b));
+        if !(mass_a > 0.0 && mass_b > 0.0) {
+            return;
+        }
+        let reduced = mass_a * mass_b / (mass_a + mass_b);
+        let jump = |field: &Field| vector::<D>(&field[b]) - vector(&field[a]);
+        let wanted = if let Some(law) = meeting.law {
+            let normal = &meeting.normal;
+            let gap = match gap {
+                Gap::Start => meeting.gap,
+                Gap::End(moved) => meeting.gap + dt * jump(moved).dot(normal),
+            };
+            let relative = jump(field);
+            let closing = relative.dot(normal);
+            let before = impulse.dot(normal);
+            let push = (before - reduced * (closing + gap.max(0.0) / dt)).max(0.0);
+            let along = (*impulse - normal * before) - (relative - normal * closing) * reduced;
+            let most = if push > 0.0 { law.friction * push } else { 0.0 };
+            let length = along.norm();
+            let held = if length > most {
+                along * (most / length)
+            } else {
+                along
+            };
+            normal * push + held
+        } else {
+            *impulse - jump(field) * reduced
+        };
+        let change = wanted - *impulse;
+        *impulse = wanted;
+        for (node, velocity) in [(a, -change / mass_a), (b, change / mass_b)] {
+            let massive = field[node][MASSIVE] > 0.0;
+            field[node] = element(&(vector(&field[node]) + velocity), massive);
+        }
+    }
+
+    /// Energy that the impulses took, J, if `end` are the velocities of the nodes after all.
+    pub(crate) fn energy(&self, sums: &NodeSums<D>, end: &Field, impulses: &Impulses<D>) -> f64 {
+        let mean = |node: usize| (sums.velocity(node) + vector(&end[node])) * 0.5;
+        let pairs = self.meetings.iter().zip(impulses);
+        pairs
+            .map(|(meeting, impulse)| {
+                let [a, b] = meeting.nodes;
+                impulse.dot(&(mean(a) - mean(b)))
+            })
+            .sum()
+    }
+
+    /// Force of each contact on its second body, N.
+    pub(crate) fn forces(
+        &self,
+        scene: &Scene<D>,
+        impulses: &Impulses<D>,
+        dt: f64,
+    ) -> Vec<SVector<f64, D>> {
+        let mut forces = vec![SVector::zeros(); scene.contacts().len()];
+        for (meeting, impulse) in self.meetings.iter().zip(impulses) {
+            if let Some(law) = meeting.law {
+                let sign = if law.in_order { 1.0 } else { -1.0 };
+                forces[law.contact] += impulse * (sign / dt);
+            }
+        }
+        forces
+    }
+}
+
+/// The pairs of a range.
+fn pairs(range: std::ops::Range<usize>) -> impl Iterator<Item = (usize, usize)> {
+    let end = range.end;
+    range.flat_map(move |a| (a + 1..end).map(move |b| (a, b)))
+}
+
+/// The contact between two groups, if there is one.
+fn law<const D: usize>(scene: &Scene<D>, groups: [u32; 2]) -> Option<Law> {
+    let [a, b] = groups.map(|group| (group as usize).checked_sub(1));
+    let index = scene.contact_between(a?, b?)?;
+    let contact = &scene.contacts()[index];
+    Some(Law {
+        contact: index,
+        in_order: Some(contact.bodies()[1]) == b,
+        friction: contact.law().friction(),
+    })
+}

@@ -1,0 +1,174 @@
+//! Nodes with more than one field.
+//!
+//! Particles fall into *groups*; without contacts there is one. Where particles of two groups reach
+//! a node, the node is *split*: the first group's field stays where the node is, each further one
+//! is an *extra node* behind all others, with mass, momentum and forces of its own. Whatever works
+//! on nodes need not know. Transfers go through the window of a tile and a group, which is the plain
+//! one of the tile unless a node in it is split.
+
+use fissure_grid::{TILE, Tiles, WINDOW, WINDOW_START, window_map};
+
+use crate::window::WindowNodes;
+
+/// Marks a window entry whose node is not split.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// A field at a split node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Copy {
+    /// Number of its node.
+    pub node: u32,
+    /// Group whose field it is.
+    pub group: u32,
+}
+
+/// The window of a tile for the particles of a group, with split nodes in it.
+#[derive(Clone, Debug)]
+pub(crate) struct SplitWindow {
+    pub tile: u32,
+    pub group: u32,
+    /// Node of every entry.
+    pub nodes: Box<[u32]>,
+    /// Index into [`Splits::copies`] of every entry, [`NONE`] where the node is not split.
+    pub copies: Box<[u32]>,
+}
+
+/// The split nodes of a scene and the windows that see them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Splits {
+    /// Fields at split nodes; those of one node side by side, in the order of groups.
+    pub copies: Vec<Copy>,
+    /// Where the copies of each split node begin, and the end; ascending by node.
+    pub starts: Vec<u32>,
+    /// Windows that differ from those of their tiles, ascending by `(tile, group)`.
+    pub windows: Vec<SplitWindow>,
+    /// The node of which each extra node is a copy.
+    pub origins: Vec<u32>,
+}
+
+impl Splits {
+    /// Splits what is reached from tiles of several groups; `occupied` are the `(tile, group)`
+    /// that hold particles, ascending and each once.
+    pub(crate) fn rebuild<const D: usize>(&mut self, tiles: &Tiles<D>, occupied: &[(u32, u32)]) {
+        self.copies.clear();
+        self.starts.clear();
+        self.windows.clear();
+        self.origins.clear();
+        let near: Vec<(u32, u32)> = near_another_group(tiles, occupied);
+        let mut fields: Vec<(u32, u32)> = Vec::new();
+        for &(tile, group) in &near {
+            let nodes = WindowNodes::of_tile(tiles, tile as usize);
+            let entries = 0..window_map::<D>().len();
+            fields.extend(entries.map(|entry| (nodes.node(entry) as u32, group)));
+        }
+        fields.sort_unstable();
+        fields.dedup();
+        for fields in fields.chunk_by(|a, b| a.0 == b.0) {
+            if fields.len() > 1 {
+                self.split(tiles.node_count(), fields);
+            }
+        }
+        if self.copies.is_empty() {
+            return;
+        }
+        self.starts.push(self.copies.len() as u32);
+        for (tile, group) in near {
+            self.window(tiles, tile, group);
+        }
+    }
+
+    fn split(&mut self, plain: usize, fields: &[(u32, u32)]) {
+        self.starts.push(self.copies.len() as u32);
+        for (k, &(origin, group)) in fields.iter().enumerate() {
+            let node = if k == 0 {
+                origin
+            } else {
+                self.origins.push(origin);
+                (plain + self.origins.len() - 1) as u32
+            };
+            self.copies.push(Copy { node, group });
+        }
+    }
+
+    fn window<const D: usize>(&mut self, tiles: &Tiles<D>, tile: u32, group: u32) {
+        let plain = WindowNodes::of_tile(tiles, tile as usize);
+        let entries = window_map::<D>().len();
+        let copies: Box<[u32]> = (0..entries)
+            .map(|entry| self.copy(plain.node(entry), group))
+            .collect();
+        if copies.iter().all(|&copy| copy == NONE) {
+            return;
+        }
+        let nodes = (0..entries).map(|entry| match copies[entry] {
+            NONE => plain.node(entry) as u32,
+            copy => self.copies[copy as usize].node,
+        });
+        let nodes = nodes.collect();
+        self.windows.push(SplitWindow {
+            tile,
+            group,
+            nodes,
+            copies,
+        });
+    }
+
+    /// Index of a group's field at a plain node, [`NONE`] if the node is not split.
+    fn copy(&self, origin: usize, group: u32) -> u32 {
+        let of_node = self.copies_of(origin);
+        let mut found = of_node.filter(|&copy| self.copies[copy].group == group);
+        found.next().map_or(NONE, |copy| copy as u32)
+    }
+
+    /// Indices of the fields at a plain node; none if it is not split.
+    pub(crate) fn copies_of(&self, origin: usize) -> std::ops::Range<usize> {
+        let first = |k: usize| self.copies[self.starts[k] as usize].node as usize;
+        let nodes = self.starts.len().saturating_sub(1);
+        let (mut low, mut high) = (0, nodes);
+        while low < high {
+            let middle = (low + high) / 2;
+            if first(middle) < origin {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        if low < nodes && first(low) == origin {
+            self.starts[low] as usize..self.starts[low + 1] as usize
+        } else {
+            0..0
+        }
+    }
+
+    /// The fields of each split node.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
+        let pairs = self.starts.windows(2);
+        pairs.map(|pair| pair[0] as usize..pair[1] as usize)
+    }
+
+    /// Index of the window of a tile and group, if it has split nodes.
+    pub(crate) fn find(&self, tile: u32, group: u32) -> Option<usize> {
+        let key = |window: &SplitWindow| (window.tile, window.group);
+        self.windows.binary_search_by_key(&(tile, group), key).ok()
+    }
+}
+
+/// The occupied `(tile, group)` whose windows overlap one of another group.
+fn near_another_group<const D: usize>(
+    tiles: &Tiles<D>,
+    occupied: &[(u32, u32)],
+) -> Vec<(u32, u32)> {
+    // Windows reach two nodes beyond their tile: only those of neighbours overlap.
+    const { assert!(WINDOW - TILE + WINDOW_START <= TILE && -WINDOW_START <= TILE) };
+    let groups_at = |tile: u32| {
+        let first = occupied.partition_point(|&(other, _)| other < tile);
+        let same = occupied[first..].iter();
+        same.take_while(move |&&(other, _)| other == tile)
+    };
+    let is_near = |&&(tile, group): &&(u32, u32)| {
+        let around = tiles.around(tile as usize).iter();
+        around
+            .copied()
+            .any(|tile| groups_at(tile).any(|&(_, other)| other != group))
+    };
+    occupied.iter().filter(is_near).copied().collect()
+}

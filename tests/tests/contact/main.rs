@@ -1,0 +1,16 @@
+//! Bodies with velocity fields of their own: impact, friction, bonds, conservation, bits.
+
+#![allow(
+    missing_docs,
+    clippy::neg_cmp_op_on_partial_ord,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::result_large_err,
+    clippy::unwrap_used
+)]
+
+mod bits;
+mod bond;
+mod conservation;
+mod friction;
+mod impact;
