@@ -23,6 +23,7 @@
 mod body;
 mod building;
 mod condition;
+mod crack;
 mod error;
 mod every;
 mod kinematics;
@@ -36,6 +37,10 @@ mod sweep;
 
 pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
+pub use crack::{
+    Contact, CrackError, CrackLine, CrackSettings, End, EndState, Foot, Grown, Growth,
+    GrowthCriterion, GrowthError, Polyline, Side, VertexMotion, grow_cracks,
+};
 pub use error::{PersistError, SceneError, SolveError, WatchError};
 pub use every::Every;
 pub use fissure_materials::External;
