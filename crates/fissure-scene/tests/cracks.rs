@@ -21,7 +21,7 @@ struct Ahead(&'static str, f64);
 
 impl GrowthCriterion for Ahead {
     fn growth(
-        &self,
+        &mut self,
         scene: &Scene<2>,
         crack: usize,
         end: End,
@@ -151,7 +151,7 @@ fn tips_grow_stop_at_a_crack_and_may_start_again() {
         ("near", &[[2.0, -1.0], [2.2, 1.0]]),
     ]);
     let edits = scene.edits();
-    let grown = grow_cracks(&mut scene, &Ahead("runner", 5.0)).unwrap();
+    let grown = grow_cracks(&mut scene, &mut Ahead("runner", 5.0)).unwrap();
     assert!(scene.edits() > edits);
     assert_eq!(grown.len(), 2);
     assert_eq!(
@@ -165,7 +165,7 @@ fn tips_grow_stop_at_a_crack_and_may_start_again() {
     assert_eq!(runner.line().points()[0], Vector2::new(-5.0, 0.0));
     assert_eq!((runner.placed().len(), runner.jump().len()), (4, 4));
     // The arrested tip stays.
-    let grown = grow_cracks(&mut scene, &Ahead("runner", 1.0)).unwrap();
+    let grown = grow_cracks(&mut scene, &mut Ahead("runner", 1.0)).unwrap();
     assert_eq!(
         grown.iter().map(|g| g.end).collect::<Vec<_>>(),
         [End::First]
@@ -175,7 +175,7 @@ fn tips_grow_stop_at_a_crack_and_may_start_again() {
         Err(CrackError::NoTip)
     );
     // Those of the crack it ran into do not.
-    let grown = grow_cracks(&mut scene, &Ahead("near", 0.5)).unwrap();
+    let grown = grow_cracks(&mut scene, &mut Ahead("near", 0.5)).unwrap();
     assert_eq!(grown.len(), 2);
     scene.cracks_mut()[0].set_end(End::Last, EndState::Tip);
     assert_eq!(scene.cracks()[0].tips().count(), 2);
@@ -228,7 +228,7 @@ fn cracks_are_saved_and_restored() {
         ])
     };
     let mut grown = built();
-    grow_cracks(&mut grown, &Ahead("a", 2.5)).unwrap();
+    grow_cracks(&mut grown, &mut Ahead("a", 2.5)).unwrap();
     grown.cracks_mut()[1]
         .carry(|_, x| VertexMotion {
             displacement: x * 0.1,

@@ -18,7 +18,7 @@ pub struct Growth {
 /// Says whether and where the tip of a crack moves on.
 ///
 /// It sees the scene and nothing of a solver: the same criterion serves every solver. It is asked
-/// between steps ([`grow_cracks`]).
+/// between steps ([`grow_cracks`]) and may remember what it saw, for rates of change.
 pub trait GrowthCriterion {
     /// The next piece of way of the tip at `end` of the scene's crack of this number, or `None` if
     /// it stays where it is.
@@ -26,7 +26,7 @@ pub trait GrowthCriterion {
     /// # Errors
     /// [`GrowthError::Criterion`] if what decides cannot be computed.
     fn growth(
-        &self,
+        &mut self,
         scene: &Scene<2>,
         crack: usize,
         end: End,
@@ -125,7 +125,7 @@ impl Scene<2> {
 /// The first tip that cannot be decided (nothing has grown then) or cannot grow.
 pub fn grow_cracks(
     scene: &mut Scene<2>,
-    criterion: &dyn GrowthCriterion,
+    criterion: &mut dyn GrowthCriterion,
 ) -> Result<Vec<Grown>, GrowthError> {
     let mut asked = Vec::new();
     for (index, crack) in scene.cracks().iter().enumerate() {
