@@ -21,7 +21,7 @@ impl Annulus {
     /// Share of the domain's area that may lack particles, or hold too many, before it is refused.
     pub const COVERAGE: f64 = 0.05;
 
-    fn check(&self) -> Result<(), MeasureError> {
+    pub(super) fn check(&self) -> Result<(), MeasureError> {
         let valid = self.inner >= 0.0 && self.outer > self.inner && self.outer.is_finite();
         if valid {
             return Ok(());
@@ -125,7 +125,7 @@ impl<'a> Domain<'a> {
 ///
 /// ```text
 /// J = Σ_p A_p { det F [σ·∇q]·(F e₁ − t) − (W + ½ρ v²) ∇q·F e₁ }
-///   + Σ_p A_p ρ { ü·(F e₁ − t) − v·Ḟ e₁ } q  −  Σ_faces ℓ T·[[u]],₁ q                         (1)
+///   + Σ_p A_p ρ { ü·(F e₁ − t) − v·Ḟ e₁ } q  −  Σ_faces T·Δ[[u]] q                            (1)
 /// ```
 ///
 /// with the reference area A_p and density ρ of a particle, the weight q at its present place, the
@@ -163,7 +163,7 @@ pub fn j_integral(
         j += sample.area * (flux + sample.density * inertia * q);
     }
     for (face, q) in domain.faces() {
-        j -= face.length * face.traction.dot(&face.jump_slope) * q;
+        j -= face.traction.dot(&face.jump_change) * q;
     }
     if j.is_finite() {
         Ok(j)

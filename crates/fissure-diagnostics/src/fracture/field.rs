@@ -81,8 +81,9 @@ pub struct FaceLoad {
     pub length: f64,
     /// Traction on the face to the left of the tip's direction, Pa; on the other acts its opposite.
     pub traction: Vector2<f64>,
-    /// Derivative along the tip's direction of the displacement of that face less that of the other.
-    pub jump_slope: Vector2<f64>,
+    /// Jump (displacement of that face less that of the other) at its end nearer to the tip less that
+    /// at its other end, m.
+    pub jump_change: Vector2<f64>,
 }
 
 /// The particles around a tip, and the loads on the crack's faces.
@@ -209,6 +210,11 @@ impl Rates {
             now.motion[id.0 as usize] = Some((motion.velocity[i], f));
         }
         Ok(())
+    }
+
+    /// Whether there were two looks.
+    pub fn are_known(&self) -> bool {
+        !self.looks[0].motion.is_empty()
     }
 
     /// Acceleration (m/s²) and rate of the deformation gradient (1/s) of a particle; `None` before

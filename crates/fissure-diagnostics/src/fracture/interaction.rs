@@ -1,10 +1,9 @@
 //! Stress intensities by the interaction integral.
 
-use std::f64::consts::PI;
-
 use nalgebra::{Matrix2, Vector2};
 
 use super::domain::Domain;
+use super::near_tip::opening_per_intensity;
 use super::{Annulus, FaceLoad, NearTip, PlaneElastic, TipField, TipFrame};
 use crate::MeasureError;
 
@@ -20,7 +19,7 @@ pub struct Intensity {
 /// K_I and K_II of a tip by the interaction integral over a domain of particles.
 ///
 /// ```text
-/// M = Σ_p a_p { (σ ∇q)·∂₁uᵃ + (σᵃ ∇q)·∂₁u − (σ:∇uᵃ) ∂₁q + ρ ü·∂₁uᵃ q } − Σ_faces ℓ T·[[uᵃ]],₁ q,
+/// M = Σ_p a_p { (σ ∇q)·∂₁uᵃ + (σᵃ ∇q)·∂₁u − (σ:∇uᵃ) ∂₁q + ρ ü·∂₁uᵃ q } − Σ_faces T·Δ[[uᵃ]] q,
 /// K = ½ E′ M(Kᵃ = 1)                                                                         (2)
 /// ```
 ///
@@ -61,8 +60,8 @@ pub fn interaction(
     }
     for (face, q) in domain.faces() {
         let traction = now.transpose() * face.traction;
-        let slope = jump_slope(face, tip, elastic);
-        m -= Vector2::new(traction.y, traction.x) * (slope * q);
+        let change = jump_change(face, tip, elastic);
+        m -= Vector2::new(traction.y, traction.x) * (change * q);
     }
     let [k1, k2] = [m.x, m.y].map(|m| 0.5 * elastic.effective_modulus() * m);
     if k1.is_finite() && k2.is_finite() {
@@ -72,9 +71,10 @@ pub fn interaction(
     }
 }
 
-/// ∫ [[uᵃ]],₁ ds over a piece of the faces for a unit intensity: `−4/E′ ∫ dr/√(2πr)`.
-fn jump_slope(face: &FaceLoad, tip: &TipFrame, elastic: &PlaneElastic) -> f64 {
+/// What the jump of the auxiliary field with unit intensity loses over a piece of the faces on the way
+/// to the tip.
+fn jump_change(face: &FaceLoad, tip: &TipFrame, elastic: &PlaneElastic) -> f64 {
     let r = (face.position - tip.position).norm();
-    let ends = [r - 0.5 * face.length, r + 0.5 * face.length].map(|r| r.max(0.0).sqrt());
-    -8.0 / elastic.effective_modulus() * (ends[1] - ends[0]) / (2.0 * PI).sqrt()
+    let at = |r: f64| opening_per_intensity(elastic, r.max(0.0));
+    at(r - 0.5 * face.length) - at(r + 0.5 * face.length)
 }
