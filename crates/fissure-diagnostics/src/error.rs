@@ -32,6 +32,24 @@ pub enum MeasureError {
         /// The permitted range.
         permitted: &'static str,
     },
+    /// The measure is not defined in this kind of scene.
+    #[error("{measure} is not defined in this kind of scene")]
+    Kinematics {
+        /// What was asked for.
+        measure: &'static str,
+    },
+    /// The particles do not fill the domain of an integral.
+    #[error("the particles cover {coverage} of the domain; permitted: 0.95 to 1.05")]
+    Coverage {
+        /// Weighted area of the particles over that of the domain.
+        coverage: f64,
+    },
+    /// A measure is not finite.
+    #[error("{measure} is not finite")]
+    NotFinite {
+        /// Which.
+        measure: &'static str,
+    },
     /// No particle of the body reaches into the section's slab.
     #[error("no particle of body '{body}' lies in the slab of the section")]
     EmptySection {

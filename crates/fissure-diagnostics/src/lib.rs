@@ -20,6 +20,7 @@ mod energy;
 mod energy_history;
 mod error;
 mod failed_zone;
+pub mod fracture;
 mod label;
 mod load_curve;
 mod load_displacement;

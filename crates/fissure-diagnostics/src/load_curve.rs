@@ -1,6 +1,7 @@
 //! Load over displacement, with the work between them.
 
-use crate::{CurveError, curve_error};
+use crate::error::check_positive;
+use crate::{CurveError, MeasureError, curve_error};
 
 /// A curve of load over displacement that accumulates its work and keeps its peak.
 ///
@@ -108,6 +109,23 @@ impl LoadCurve {
         curve_error(&self.displacement, &self.load, exact, range, breakpoints)
     }
 
+    /// Mean strain and nominal stress (Pa) of the points, for a body of this reference length (m) and
+    /// section (m²).
+    ///
+    /// # Errors
+    /// [`MeasureError::Parameter`] if either is not positive and finite.
+    pub fn stress_strain(
+        &self,
+        length: f64,
+        section: f64,
+    ) -> Result<(Vec<f64>, Vec<f64>), MeasureError> {
+        check_positive("length of the body", length)?;
+        check_positive("section of the body", section)?;
+        let strain = self.displacement.iter().map(|d| d / length);
+        let stress = self.load.iter().map(|load| load / section);
+        Ok((strain.collect(), stress.collect()))
+    }
+
     /// Labels and numbers of the two columns, for a table.
     pub fn columns(&self) -> [(&'static str, &[f64]); 2] {
         [
@@ -130,6 +148,15 @@ mod tests {
         assert_eq!((curve.work(), curve.peak()), (0.0, 4.0));
         assert_eq!(curve.displacement(), [0.0, 2.0, 0.0]);
         assert_eq!(curve.columns()[1].1, [0.0, 4.0, 0.0]);
+    }
+
+    #[test]
+    fn stress_and_strain() {
+        let mut curve = LoadCurve::default();
+        curve.push(2e-3, 40.0);
+        let curve = curve.stress_strain(0.5, 1e-4).unwrap();
+        assert_eq!(curve, (vec![0.0, 4e-3], vec![0.0, 4e5]));
+        assert!(LoadCurve::default().stress_strain(0.0, 1.0).is_err());
     }
 
     #[test]

@@ -8,11 +8,13 @@
 use crate::error::SceneError;
 use crate::scene::Scene;
 use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
 
-/// What two bodies do to each other where they touch. In all cases they may part.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What two bodies, or the faces of a crack, do to each other where they touch. In all cases they may part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum ContactLaw {
     /// No tangential force.
+    #[default]
     Frictionless,
     /// Tangential force up to `friction` (≥ 0) times the normal one.
     Coulomb {
@@ -24,6 +26,16 @@ pub enum ContactLaw {
 }
 
 impl ContactLaw {
+    /// The coefficient of friction, if it is outside its range (finite and ≥ 0).
+    pub(crate) fn refused(&self) -> Option<f64> {
+        match *self {
+            Self::Coulomb { friction } if !(friction >= 0.0 && friction.is_finite()) => {
+                Some(friction)
+            }
+            _ => None,
+        }
+    }
+
     /// The tangential over the normal force at which they slide.
     pub fn friction(&self) -> f64 {
         match *self {
@@ -83,12 +95,10 @@ impl<const D: usize> Scene<D> {
                 second: second.to_owned(),
             });
         }
-        if let ContactLaw::Coulomb { friction } = law
-            && !(friction >= 0.0 && friction.is_finite())
-        {
+        if let Some(value) = law.refused() {
             return Err(SceneError::Parameter {
                 parameter: "friction",
-                value: friction,
+                value,
                 permitted: "finite and >= 0",
             });
         }

@@ -4,6 +4,8 @@ use fissure_materials::{MaterialError, Matrix3};
 use fissure_particles::{ExtraError, ParticleError, ParticleId, SeedError};
 use thiserror::Error;
 
+use crate::crack::CrackError;
+
 /// Why a scene refused what it was given.
 #[derive(Debug, Error)]
 pub enum SceneError {
@@ -54,7 +56,9 @@ pub enum SceneError {
         source: ExtraError,
     },
     /// A name is taken.
-    #[error("the name '{name}' is taken; names of bodies, conditions and contacts are unique")]
+    #[error(
+        "the name '{name}' is taken; names of bodies, conditions, contacts and cracks are unique"
+    )]
     NameTaken {
         /// The name.
         name: String,
@@ -82,6 +86,15 @@ pub enum SceneError {
     EmptySelection {
         /// The condition.
         name: String,
+    },
+    /// A crack was refused.
+    #[error("crack '{crack}'")]
+    Crack {
+        /// The crack.
+        crack: String,
+        /// What the crack said.
+        #[source]
+        source: CrackError,
     },
     /// An axisymmetric body reaches over the axis.
     #[error("body '{body}': a particle at radius {radius} m; permitted: > 0")]
@@ -202,6 +215,19 @@ pub enum SolveError {
         #[source]
         source: ParticleError,
     },
+    /// A crack could not follow the material.
+    #[error("step {step}, t = {time:.6e} s: crack '{crack}'")]
+    Crack {
+        /// The crack.
+        crack: String,
+        /// The step that failed, counted from 1.
+        step: u64,
+        /// Time at its start, s.
+        time: f64,
+        /// What the crack said.
+        #[source]
+        source: CrackError,
+    },
     /// A watch failed.
     #[error("a watch failed")]
     Watch(#[from] WatchError),
@@ -252,6 +278,25 @@ pub enum PersistError {
         found: usize,
         /// In the scene.
         expected: usize,
+    },
+    /// A crack of this name is not in the section at its place.
+    #[error("section '{section}' has crack '{found}' where the scene has '{expected}'")]
+    CrackName {
+        /// Name of the section.
+        section: String,
+        /// In the section.
+        found: String,
+        /// In the scene.
+        expected: String,
+    },
+    /// A saved crack is no line.
+    #[error("section '{section}'")]
+    Crack {
+        /// Name of the section.
+        section: String,
+        /// What the crack said.
+        #[source]
+        source: CrackError,
     },
     /// An optional column was refused.
     #[error("section '{section}'")]

@@ -24,6 +24,7 @@ mod body;
 mod building;
 mod condition;
 mod contact;
+mod crack;
 mod error;
 mod every;
 mod kinematics;
@@ -38,6 +39,10 @@ mod sweep;
 pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
 pub use contact::{Contact, ContactLaw};
+pub use crack::{
+    CrackError, CrackLine, CrackSettings, End, EndState, Foot, Grown, Growth, GrowthCriterion,
+    GrowthError, Polyline, Side, VertexMotion, grow_cracks,
+};
 pub use error::{PersistError, SceneError, SolveError, WatchError};
 pub use every::Every;
 pub use fissure_materials::External;

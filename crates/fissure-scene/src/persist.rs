@@ -8,6 +8,7 @@ use nalgebra::SVector;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::condition::Selection;
+use crate::crack::CrackLine;
 use crate::{EnergyTotals, PersistError, Scene};
 
 /// A named part of a saved scene.
@@ -18,6 +19,9 @@ pub struct Section {
     /// Its bytes.
     pub bytes: Vec<u8>,
 }
+
+/// The section of the cracks, of scenes that have any.
+const CRACKS: &str = "cracks";
 
 #[derive(Serialize, Deserialize)]
 struct Clock<const D: usize> {
@@ -57,6 +61,9 @@ impl<const D: usize> Scene<D> {
             rigid: rigid.collect(),
         };
         let mut sections = vec![encode("scene".to_owned(), &clock)?];
+        if !self.cracks.is_empty() {
+            sections.push(encode(CRACKS.to_owned(), &self.cracks)?);
+        }
         for body in &self.bodies {
             let particles = &body.particles;
             let extra: Vec<String> = particles.extra.names().map(str::to_owned).collect();
@@ -119,6 +126,7 @@ impl<const D: usize> Scene<D> {
                 *position = saved;
             }
         }
+        self.restore_cracks(sections)?;
         for body in &mut self.bodies {
             let name = format!("{}/particles", body.name);
             let columns: Columns<D> = decode(sections, &name)?;
@@ -158,6 +166,30 @@ impl<const D: usize> Scene<D> {
             body.law.restore(bytes(sections, &name)?, &name)?;
         }
         self.edits += 1;
+        Ok(())
+    }
+
+    fn restore_cracks(&mut self, sections: &[Section]) -> Result<(), PersistError> {
+        let saved = sections.iter().any(|section| section.name == CRACKS);
+        if self.cracks.is_empty() && !saved {
+            return Ok(());
+        }
+        let cracks: Vec<CrackLine> = decode(sections, CRACKS)?;
+        fits(CRACKS, "number of cracks", cracks.len(), self.cracks.len())?;
+        for (saved, own) in cracks.iter().zip(&self.cracks) {
+            if saved.name() != own.name() {
+                return Err(PersistError::CrackName {
+                    section: CRACKS.to_owned(),
+                    found: saved.name().to_owned(),
+                    expected: own.name().to_owned(),
+                });
+            }
+            saved.check().map_err(|source| PersistError::Crack {
+                section: CRACKS.to_owned(),
+                source,
+            })?;
+        }
+        self.cracks = cracks;
         Ok(())
     }
 }

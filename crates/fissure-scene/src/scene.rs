@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use crate::body::Body;
 use crate::condition::{Condition, ConditionKind, Selection};
 use crate::contact::Contact;
+use crate::crack::CrackLine;
 use crate::kinematics::{Kinematics, Plane};
 use crate::ledger::{EnergyTotals, Report};
 
@@ -23,6 +24,7 @@ pub struct Scene<const D: usize> {
     pub(crate) bodies: Vec<Body<D>>,
     pub(crate) conditions: Vec<Condition<D>>,
     pub(crate) contacts: Vec<Contact>,
+    pub(crate) cracks: Vec<CrackLine>,
     pub(crate) body_force: Option<BodyForce<D>>,
     pub(crate) time: f64,
     pub(crate) step: u64,
@@ -61,6 +63,7 @@ impl<const D: usize> Scene<D> {
             bodies: Vec::new(),
             conditions: Vec::new(),
             contacts: Vec::new(),
+            cracks: Vec::new(),
             body_force: None,
             time: 0.0,
             step: 0,
@@ -106,6 +109,17 @@ impl<const D: usize> Scene<D> {
     /// Its conditions, in the order they were added.
     pub fn conditions(&self) -> &[Condition<D>] {
         &self.conditions
+    }
+
+    /// Its cracks, in the order they were added; in space there are none.
+    pub fn cracks(&self) -> &[CrackLine] {
+        &self.cracks
+    }
+
+    /// Its cracks, for solvers. Counts as an edit: a solver prepares anew unless it was its own.
+    pub fn cracks_mut(&mut self) -> &mut [CrackLine] {
+        self.edits += 1;
+        &mut self.cracks
     }
 
     /// Number of particles of all bodies.
