@@ -8,7 +8,9 @@
 
 mod band;
 mod constraints;
+mod crack_motion;
 mod explicit;
+mod groups;
 mod loads;
 mod nodes;
 mod placement;

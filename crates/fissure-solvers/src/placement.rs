@@ -6,8 +6,16 @@ use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
+use crate::groups::{Between, Groups, Pattern};
 use crate::splits::{SplitWindow, Splits};
 use crate::window::WindowNodes;
+
+/// How far cracks may move, in cells, before particles are sorted by them anew.
+const CRACKS_MOVE: f64 = 0.05;
+/// Entries of a window in the plane.
+const WINDOW_ENTRIES: usize = 64;
+/// The lower half of the bits of a label.
+const HALF: u64 = 0xffff_ffff;
 
 /// Consecutive runs of a body in tiles of one colour and of one group: windows that do not overlap.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,6 +51,13 @@ pub struct Placement<const D: usize> {
     keys: Vec<u64>,
     order: Vec<u32>,
     homes: Vec<[i32; D]>,
+    /// Of each particle the cracks between it and its window's nodes; empty without cracks.
+    patterns: Vec<Pattern>,
+    groups: Groups,
+    /// Tile and group of every run.
+    occupied: Vec<(u32, u32)>,
+    /// How far the cracks have moved since the patterns were found, m.
+    crack_motion: f64,
     /// Whether `homes` were recalled from a checkpoint.
     recalled: bool,
 }
@@ -60,6 +75,10 @@ impl<const D: usize> Default for Placement<D> {
             keys: Vec::new(),
             order: Vec::new(),
             homes: Vec::new(),
+            patterns: Vec::new(),
+            groups: Groups::default(),
+            occupied: Vec::new(),
+            crack_motion: 0.0,
             recalled: false,
         }
     }
@@ -96,20 +115,28 @@ impl<const D: usize> Placement<D> {
         self.find_homes(grid, scene)?;
         self.tiles.rebuild(self.homes.iter().copied());
         self.runs.clear();
-        let groups: Vec<u64> = (0..scene.bodies().len())
-            .map(|body| scene.velocity_field(body) as u64)
+        let fields: Vec<u32> = (0..scene.bodies().len())
+            .map(|body| scene.velocity_field(body) as u32)
             .collect();
+        self.form_groups(scene, &fields);
         let mut batches: Vec<(u64, Batch)> = Vec::new();
-        let mut occupied: Vec<(u32, u32)> = Vec::new();
+        let mut occupied = std::mem::take(&mut self.occupied);
+        occupied.clear();
         let mut first = 0;
         for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
             let count = body.particles().len();
             let homes = &self.homes[first..first + count];
-            first += count;
             self.keys.clear();
             let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
-            let key = |&home| colour(home) << 56 | groups[index] << 32 | tile_index(home);
-            self.keys.extend(homes.iter().map(key));
+            let plain = u64::from(self.groups.find(fields[index], &None));
+            let patterns = self.patterns.get(first..first + count);
+            let group = |row: usize| match patterns {
+                Some(patterns) => u64::from(self.groups.find(fields[index], &patterns[row])),
+                None => plain,
+            };
+            let key = |(row, &home)| colour(home) << 56 | group(row) << 32 | tile_index(home);
+            self.keys.extend(homes.iter().enumerate().map(key));
+            first += count;
             if !self.keys.is_sorted() {
                 sort_permutation(&self.keys, &mut self.order);
                 body.reorder(&self.order)?;
@@ -132,36 +159,73 @@ impl<const D: usize> Placement<D> {
         self.batches.clear();
         self.batches
             .extend(batches.into_iter().map(|(_, batch)| batch));
-        self.split(occupied);
+        self.occupied = occupied;
+        self.split();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
+        self.crack_motion = 0.0;
         Ok(())
+    }
+
+    fn form_groups(&mut self, scene: &Scene<D>, fields: &[u32]) {
+        let mut all: Vec<(u32, Pattern)> = fields.iter().map(|&field| (field, None)).collect();
+        if !self.patterns.is_empty() {
+            let bodies = scene.bodies().iter().zip(fields);
+            let of_particles = bodies
+                .flat_map(|(body, &field)| std::iter::repeat_n(field, body.particles().len()));
+            let split = of_particles
+                .zip(&self.patterns)
+                .filter(|(_, pattern)| pattern.is_some());
+            all.extend(split.map(|(field, pattern)| (field, pattern.clone())));
+        }
+        self.groups = Groups::of(all);
+    }
+
+    /// Notes that the cracks have moved, by at most `way`, m.
+    pub(crate) fn note_crack_motion(&mut self, way: f64) {
+        self.crack_motion += way;
+    }
+
+    /// Whether cracks have moved so far that particles are to be sorted by them anew.
+    pub(crate) fn cracks_have_moved(&self, grid: &Grid<D>) -> bool {
+        !(self.crack_motion <= CRACKS_MOVE * grid.spacing())
     }
 
     /// The tile that every particle is sorted by: the one it is in, or the recalled one.
     fn find_homes(&mut self, grid: &Grid<D>, scene: &Scene<D>) -> Result<(), SolveError> {
-        if std::mem::take(&mut self.recalled) && self.homes.len() == scene.particle_count() {
+        let recalled = std::mem::take(&mut self.recalled) && !self.cracks_have_moved(grid);
+        if recalled && self.homes.len() == scene.particle_count() {
             return Ok(());
         }
         self.homes.clear();
+        self.patterns.clear();
+        let mut between = Between::new(grid, scene)?;
         for (body, owner) in scene.bodies().iter().enumerate() {
             for (index, x) in owner.motion().position.iter().enumerate() {
                 let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
-                self.homes.push(tile_of(cell));
+                let home = tile_of(cell);
+                self.homes.push(home);
+                if !scene.cracks().is_empty() {
+                    self.patterns.push(between.pattern(home, x));
+                }
             }
         }
         Ok(())
     }
 
-    /// The tiles that the particles are sorted by, as `(particles, coordinates)` of each run: they
-    /// may have moved on since, and a restarted run is to sum in the same order.
+    /// The tiles that the particles are sorted by, as `(particles, coordinates)` of each run, and the
+    /// cracks between them and their nodes: they may have moved on since, and a restarted run is to
+    /// sum in the same order.
     pub(crate) fn memory(&self) -> Vec<f64> {
-        let mut memory = Vec::new();
-        for run in self.runs.iter().flatten() {
+        let mut memory = vec![self.crack_motion];
+        for (run, &(_, group)) in self.runs.iter().flatten().zip(&self.occupied) {
+            let pattern = self.groups.pattern(group).as_deref();
             memory.push(run.len() as f64);
-            let coordinates = self.coordinates(run.window);
-            memory.extend(coordinates.map(f64::from));
+            memory.extend(self.coordinates(run.window).map(f64::from));
+            memory.push(f64::from(u8::from(pattern.is_some())));
+            let halves = |&cracks: &u64| [cracks >> 32, cracks & HALF].map(|half| half as f64);
+            memory.extend(pattern.into_iter().flatten().flat_map(halves));
         }
         memory
     }
@@ -169,28 +233,41 @@ impl<const D: usize> Placement<D> {
     /// Takes back what [`memory`](Self::memory) gave, for the next [`update`](Self::update).
     pub(crate) fn recall(&mut self, memory: &[f64]) {
         self.homes.clear();
-        for run in memory.chunks_exact(1 + D) {
-            let home = std::array::from_fn(|axis| run[1 + axis] as i32);
-            let count = self.homes.len() + (run[0] as usize).min(Run::MAX);
+        self.patterns.clear();
+        let mut numbers = memory.iter().copied();
+        self.crack_motion = numbers.next().unwrap_or(0.0);
+        while let Some(particles) = numbers.next() {
+            let mut next = || numbers.next().unwrap_or(0.0);
+            let home = std::array::from_fn(|_| next() as i32);
+            let entries = if next() == 1.0 { WINDOW_ENTRIES } else { 0 };
+            let cracks: Box<[u64]> = (0..entries)
+                .map(|_| (next() as u64) << 32 | next() as u64)
+                .collect();
+            let pattern: Pattern = (!cracks.is_empty()).then_some(cracks);
+            let count = self.homes.len() + (particles as usize).min(Run::MAX);
             self.homes.resize(count, home);
+            self.patterns.resize(count, pattern);
+        }
+        if self.patterns.iter().all(Option::is_none) {
+            self.patterns.clear();
         }
         self.recalled = !self.homes.is_empty();
         self.edits = None;
     }
 
     /// Splits nodes where groups meet, and turns the runs' tiles into windows.
-    fn split(&mut self, mut occupied: Vec<(u32, u32)>) {
-        let group = occupied.first().map(|&(_, group)| group);
-        if occupied.iter().all(|&(_, other)| Some(other) == group) {
+    fn split(&mut self) {
+        let same = |pair: &[(u32, u32)]| pair[0].1 == pair[1].1;
+        if self.occupied.windows(2).all(same) {
             self.splits = Splits::default();
             return;
         }
-        let of_runs = occupied.clone();
+        let mut occupied = self.occupied.clone();
         occupied.sort_unstable();
         occupied.dedup();
-        self.splits.rebuild(&self.tiles, &occupied);
+        self.splits.rebuild(&self.tiles, &self.groups, &occupied);
         let plain = self.tiles.len();
-        for (run, (tile, group)) in self.runs.iter_mut().flatten().zip(of_runs) {
+        for (run, &(tile, group)) in self.runs.iter_mut().flatten().zip(&self.occupied) {
             if let Some(split) = self.splits.find(tile, group) {
                 run.window = (plain + split) as u32;
             }
@@ -252,16 +329,21 @@ impl<const D: usize> Placement<D> {
         &self.selected[condition]
     }
 
-    /// Calls `visit` with the node of a grid index, if its tile is held, and those of its further
-    /// fields.
-    pub(crate) fn each_field(&self, index: [i32; D], mut visit: impl FnMut(usize)) {
-        let Some(tile) = self.tiles.find(tile_of(index)) else {
-            return;
-        };
+    /// The node of a grid index, if its tile is held; of several fields the first.
+    pub(crate) fn node(&self, index: [i32; D]) -> Option<usize> {
+        let tile = self.tiles.find(tile_of(index))?;
         let local = (0..D)
             .rev()
             .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
-        let node = tile * Tiles::<D>::NODES + local;
+        Some(tile * Tiles::<D>::NODES + local)
+    }
+
+    /// Calls `visit` with the node of a grid index, if its tile is held, and those of its further
+    /// fields.
+    pub(crate) fn each_field(&self, index: [i32; D], mut visit: impl FnMut(usize)) {
+        let Some(node) = self.node(index) else {
+            return;
+        };
         visit(node);
         for copy in self.splits.copies_of(node).skip(1) {
             visit(self.splits.copies[copy].node as usize);

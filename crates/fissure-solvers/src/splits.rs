@@ -1,13 +1,15 @@
 //! Nodes with more than one field.
 //!
-//! Particles fall into *groups*; without contacts there is one. Where particles of two groups reach
-//! a node, the node is *split*: the first group's field stays where the node is, each further one
-//! is an *extra node* behind all others, with mass, momentum and forces of its own. Whatever works
-//! on nodes need not know. Transfers go through the window of a tile and a group, which is the plain
-//! one of the tile unless a node in it is split.
+//! Particles fall into *groups* (`groups`), and a group has a [`Label`] at every node of its
+//! window: which body's field it belongs to, which cracks lie between. Where particles of two labels
+//! reach a node, the node is *split*: the field of the lowest label stays where the node is, each
+//! further one is an *extra node* behind all others, with mass, momentum and forces of its own.
+//! Whatever works on nodes need not know. Transfers go through the window of a tile and a group,
+//! which is the plain one of the tile unless a node in it is split.
 
-use fissure_grid::{TILE, Tiles, WINDOW, WINDOW_START, window_map};
+use fissure_grid::{ABSENT, TILE, Tiles, WINDOW, WINDOW_START, window_map};
 
+use crate::groups::{Groups, Label};
 use crate::window::WindowNodes;
 
 /// Marks a window entry whose node is not split.
@@ -18,8 +20,8 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) struct Copy {
     /// Number of its node.
     pub node: u32,
-    /// Group whose field it is.
-    pub group: u32,
+    /// Particles whose field it is.
+    pub label: Label,
 }
 
 /// The window of a tile for the particles of a group, with split nodes in it.
@@ -36,7 +38,7 @@ pub(crate) struct SplitWindow {
 /// The split nodes of a scene and the windows that see them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Splits {
-    /// Fields at split nodes; those of one node side by side, in the order of groups.
+    /// Fields at split nodes; those of one node side by side, in the order of labels.
     pub copies: Vec<Copy>,
     /// Where the copies of each split node begin, and the end; ascending by node.
     pub starts: Vec<u32>,
@@ -47,19 +49,25 @@ pub(crate) struct Splits {
 }
 
 impl Splits {
-    /// Splits what is reached from tiles of several groups; `occupied` are the `(tile, group)`
-    /// that hold particles, ascending and each once.
-    pub(crate) fn rebuild<const D: usize>(&mut self, tiles: &Tiles<D>, occupied: &[(u32, u32)]) {
+    /// Splits what is reached with several labels; `occupied` are the `(tile, group)` that hold
+    /// particles, ascending and each once.
+    pub(crate) fn rebuild<const D: usize>(
+        &mut self,
+        tiles: &Tiles<D>,
+        groups: &Groups,
+        occupied: &[(u32, u32)],
+    ) {
         self.copies.clear();
         self.starts.clear();
         self.windows.clear();
         self.origins.clear();
-        let near: Vec<(u32, u32)> = near_another_group(tiles, occupied);
-        let mut fields: Vec<(u32, u32)> = Vec::new();
+        let near = near_a_difference(tiles, groups, occupied);
+        let mut fields: Vec<(u32, Label)> = Vec::new();
         for &(tile, group) in &near {
             let nodes = WindowNodes::of_tile(tiles, tile as usize);
             let entries = 0..window_map::<D>().len();
-            fields.extend(entries.map(|entry| (nodes.node(entry) as u32, group)));
+            let field = |entry| (nodes.node(entry) as u32, groups.label(group, entry));
+            fields.extend(entries.map(field));
         }
         fields.sort_unstable();
         fields.dedup();
@@ -73,28 +81,28 @@ impl Splits {
         }
         self.starts.push(self.copies.len() as u32);
         for (tile, group) in near {
-            self.window(tiles, tile, group);
+            self.window(tiles, groups, tile, group);
         }
     }
 
-    fn split(&mut self, plain: usize, fields: &[(u32, u32)]) {
+    fn split(&mut self, plain: usize, fields: &[(u32, Label)]) {
         self.starts.push(self.copies.len() as u32);
-        for (k, &(origin, group)) in fields.iter().enumerate() {
+        for (k, &(origin, label)) in fields.iter().enumerate() {
             let node = if k == 0 {
                 origin
             } else {
                 self.origins.push(origin);
                 (plain + self.origins.len() - 1) as u32
             };
-            self.copies.push(Copy { node, group });
+            self.copies.push(Copy { node, label });
         }
     }
 
-    fn window<const D: usize>(&mut self, tiles: &Tiles<D>, tile: u32, group: u32) {
+    fn window<const D: usize>(&mut self, tiles: &Tiles<D>, groups: &Groups, tile: u32, group: u32) {
         let plain = WindowNodes::of_tile(tiles, tile as usize);
         let entries = window_map::<D>().len();
         let copies: Box<[u32]> = (0..entries)
-            .map(|entry| self.copy(plain.node(entry), group))
+            .map(|entry| self.copy(plain.node(entry), groups.label(group, entry)))
             .collect();
         if copies.iter().all(|&copy| copy == NONE) {
             return;
@@ -112,30 +120,21 @@ impl Splits {
         });
     }
 
-    /// Index of a group's field at a plain node, [`NONE`] if the node is not split.
-    fn copy(&self, origin: usize, group: u32) -> u32 {
-        let of_node = self.copies_of(origin);
-        let mut found = of_node.filter(|&copy| self.copies[copy].group == group);
-        found.next().map_or(NONE, |copy| copy as u32)
+    /// Index of a label's field at a plain node, [`NONE`] if the node is not split.
+    fn copy(&self, origin: usize, label: Label) -> u32 {
+        let mut of_node = self.copies_of(origin);
+        let found = of_node.find(|&copy| self.copies[copy].label == label);
+        found.map_or(NONE, |copy| copy as u32)
     }
 
     /// Indices of the fields at a plain node; none if it is not split.
     pub(crate) fn copies_of(&self, origin: usize) -> std::ops::Range<usize> {
-        let first = |k: usize| self.copies[self.starts[k] as usize].node as usize;
         let nodes = self.starts.len().saturating_sub(1);
-        let (mut low, mut high) = (0, nodes);
-        while low < high {
-            let middle = (low + high) / 2;
-            if first(middle) < origin {
-                low = middle + 1;
-            } else {
-                high = middle;
-            }
-        }
-        if low < nodes && first(low) == origin {
-            self.starts[low] as usize..self.starts[low + 1] as usize
-        } else {
-            0..0
+        let starts = &self.starts[..nodes];
+        let first = |start: &u32| self.copies[*start as usize].node as usize;
+        match starts.binary_search_by_key(&origin, first) {
+            Ok(k) => self.starts[k] as usize..self.starts[k + 1] as usize,
+            Err(_) => 0..0,
         }
     }
 
@@ -152,9 +151,10 @@ impl Splits {
     }
 }
 
-/// The occupied `(tile, group)` whose windows overlap one of another group.
-fn near_another_group<const D: usize>(
+/// The occupied `(tile, group)` whose windows overlap one with other labels.
+fn near_a_difference<const D: usize>(
     tiles: &Tiles<D>,
+    groups: &Groups,
     occupied: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
     // Windows reach two nodes beyond their tile: only those of neighbours overlap.
@@ -165,10 +165,10 @@ fn near_another_group<const D: usize>(
         same.take_while(move |&&(other, _)| other == tile)
     };
     let is_near = |&&(tile, group): &&(u32, u32)| {
-        let around = tiles.around(tile as usize).iter();
+        let around = tiles.around(tile as usize).iter().copied();
         around
-            .copied()
-            .any(|tile| groups_at(tile).any(|&(_, other)| other != group))
+            .filter(|&tile| tile != ABSENT)
+            .any(|tile| groups_at(tile).any(|&(_, other)| groups.may_differ(group, other)))
     };
     occupied.iter().filter(is_near).copied().collect()
 }

@@ -335,6 +335,24 @@ impl Polyline {
         }
     }
 
+    /// The same line with segments of at most `longest` (m), and of every vertex the segment and the place on it
+    /// where it was put.
+    pub(super) fn refined(&self, longest: f64) -> (Self, Vec<(usize, f64)>) {
+        let mut origins = Vec::with_capacity(self.points.len());
+        for i in 0..self.segments() {
+            let [a, b] = self.segment(i);
+            let pieces = ((b - a).norm() / longest).ceil().max(1.0) as usize;
+            origins.extend((0..pieces).map(|k| (i, k as f64 / pieces as f64)));
+        }
+        origins.push((self.segments(), 0.0));
+        let place = |&(i, t): &(usize, f64)| match self.points.get(i + 1) {
+            Some(next) if t > 0.0 => self.points[i] * (1.0 - t) + next * t,
+            _ => self.points[i],
+        };
+        let points = origins.iter().map(place).collect();
+        (Self { points }, origins)
+    }
+
     /// Segment and place on it of the point nearest to `x`; with `extended`, of the line past its
     /// ends. Of equally near ones the first.
     fn nearest(&self, x: &Vector2<f64>, extended: bool) -> (usize, f64) {

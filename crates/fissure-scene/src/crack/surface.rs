@@ -182,6 +182,29 @@ impl CrackLine {
         self.jump[i] * (1.0 - t) + self.jump[i + 1] * t
     }
 
+    /// Unit normal and jump of the crack where it is nearest to `x`: the normal points to the plus side, the
+    /// jump (m) is between the vertices' by straight lines.
+    pub fn face_at(&self, x: &Vector2<f64>) -> (Vector2<f64>, Vector2<f64>) {
+        let foot = self.line.foot(x);
+        let (i, t) = (foot.segment, foot.fraction);
+        (foot.normal, self.jump[i] * (1.0 - t) + self.jump[i + 1] * t)
+    }
+
+    /// Divides segments longer than `longest` (m) into equal pieces. For solvers, whose nodes see more
+    /// of the faces than the vertices a user needs.
+    pub fn refine(&mut self, longest: f64) {
+        let (line, origins) = self.line.refined(longest);
+        let between = |values: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
+            let value = |&(i, t): &(usize, f64)| match values.get(i + 1) {
+                Some(next) if t > 0.0 => values[i] * (1.0 - t) + next * t,
+                _ => values[i],
+            };
+            origins.iter().map(value).collect()
+        };
+        (self.placed, self.jump) = (between(&self.placed), between(&self.jump));
+        self.line = line;
+    }
+
     /// Whether a tip lies in the open box `|x − centre| < half`, component by component (m). Mouths
     /// and arrested ends do not count.
     pub fn tip_in_box(&self, centre: &Vector2<f64>, half: &Vector2<f64>) -> bool {

@@ -3,7 +3,7 @@
 //! At a node with the fields `a` and `b` the normal is that of the plane between their particles, from `a` to `b`
 //! (`plane`). The gap is measured between particles, not nodes, so that bodies do not feel each other from cells away:
 //! `g = min_b (x·n − r) − max_a (x·n + r)` over the particles that reach the node, with their extents `r` along the
-//! normal.
+//! normal. Between the faces of a crack normal and gap are the crack's own.
 //!
 //! A step may close the gap and no more: the relative normal velocity after it is at least `−max(g, 0)/Δt`. The impulse
 //! this takes is limited from below by zero, the tangential one by friction times it. Fields without a contact between
@@ -14,12 +14,13 @@ mod plane;
 mod surface;
 
 use fissure_grid::Shape;
-use fissure_scene::{Scene, SolveError};
+use fissure_scene::{CrackLine, Scene, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use self::plane::normal_between;
 use self::surface::Surface;
+use crate::groups::{Label, plane};
 use crate::nodes::{Field, MASSIVE, NodeSums, element, vector};
 use crate::placement::outside;
 use crate::transfers::Transfers;
@@ -49,14 +50,27 @@ struct Meeting<const D: usize> {
     gap: f64,
 }
 
-/// The contact of two fields.
+/// How two fields touch.
 #[derive(Clone, Copy, Debug)]
 struct Law {
-    /// Its index in the scene.
-    contact: usize,
-    /// Whether the field of its second body comes second.
-    in_order: bool,
+    between: Between,
     friction: f64,
+}
+
+/// What two fields are separated by.
+#[derive(Clone, Copy, Debug)]
+enum Between {
+    /// Bodies with a contact of the scene: which, and whether the field of its second body comes
+    /// second.
+    Bodies(usize, bool),
+    /// The faces of a crack of the scene: which, and whether the second field is on its plus side.
+    Faces(usize, bool),
+}
+
+impl<const D: usize> Meeting<D> {
+    fn is_of_bodies(&self) -> bool {
+        matches!(self.law.map(|law| law.between), Some(Between::Bodies(..)))
+    }
 }
 
 /// Where fields meet in a step.
@@ -99,20 +113,30 @@ impl<const D: usize> Meetings<D> {
                     continue;
                 }
                 let pair = [splits.copies[a], splits.copies[b]];
-                let law = law(scene, pair.map(|copy| copy.group));
-                if law.is_some() {
-                    if !bounds[a].is_near(&bounds[b], margin) {
-                        continue;
-                    }
-                    (wanted[a], wanted[b]) = (true, true);
-                }
-                copies.push((a, b));
-                self.meetings.push(Meeting {
+                let law = law(scene, pair.map(|copy| copy.label));
+                let mut meeting = Meeting {
                     nodes: pair.map(|copy| copy.node as usize),
                     law,
                     normal: SVector::zeros(),
                     gap: 0.0,
-                });
+                };
+                match law.map(|law| law.between) {
+                    None => {}
+                    Some(Between::Faces(crack, in_order)) => {
+                        let x = transfers
+                            .placement
+                            .node_position(transfers.grid, meeting.nodes[0]);
+                        (meeting.normal, meeting.gap) = faces(&scene.cracks()[crack], in_order, &x);
+                    }
+                    Some(Between::Bodies(..)) => {
+                        if !bounds[a].is_near(&bounds[b], margin) {
+                            continue;
+                        }
+                        (wanted[a], wanted[b]) = (true, true);
+                    }
+                }
+                copies.push((a, b));
+                self.meetings.push(meeting);
             }
         }
         self.starts.push(self.meetings.len() as u32);
@@ -120,7 +144,8 @@ impl<const D: usize> Meetings<D> {
         self.meetings
             .par_iter_mut()
             .zip(copies)
-            .filter(|(meeting, _)| meeting.law.is_some())
+            .filter(|(_, (a, b))| wanted[*a] && wanted[*b])
+            .filter(|(meeting, _)| meeting.is_of_bodies())
             .for_each(|(meeting, (a, b))| {
                 let (a, b) = (&clouds[a], &clouds[b]);
                 meeting.normal = normal_between(&a.places, &b.places);
@@ -237,9 +262,9 @@ impl<const D: usize> Meetings<D> {
     ) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); scene.contacts().len()];
         for (meeting, impulse) in self.meetings.iter().zip(impulses) {
-            if let Some(law) = meeting.law {
-                let sign = if law.in_order { 1.0 } else { -1.0 };
-                forces[law.contact] += impulse * (sign / dt);
+            if let Some(Between::Bodies(contact, in_order)) = meeting.law.map(|law| law.between) {
+                let sign = if in_order { 1.0 } else { -1.0 };
+                forces[contact] += impulse * (sign / dt);
             }
         }
         forces
@@ -252,14 +277,34 @@ fn pairs(range: std::ops::Range<usize>) -> impl Iterator<Item = (usize, usize)> 
     range.flat_map(move |a| (a + 1..end).map(move |b| (a, b)))
 }
 
-/// The contact between two groups, if there is one.
-fn law<const D: usize>(scene: &Scene<D>, groups: [u32; 2]) -> Option<Law> {
-    let [a, b] = groups.map(|group| (group as usize).checked_sub(1));
-    let index = scene.contact_between(a?, b?)?;
+/// What separates two fields, if anything.
+fn law<const D: usize>(scene: &Scene<D>, [a, b]: [Label; 2]) -> Option<Law> {
+    if a.body == b.body {
+        let (crack, in_order) = a.crack_between(b)?;
+        return Some(Law {
+            between: Between::Faces(crack, in_order),
+            friction: scene.cracks()[crack].contact().friction(),
+        });
+    }
+    let [first, second] = [a, b].map(|label| (label.body as usize).checked_sub(1));
+    let index = scene.contact_between(first?, second?)?;
     let contact = &scene.contacts()[index];
     Some(Law {
-        contact: index,
-        in_order: Some(contact.bodies()[1]) == b,
+        between: Between::Bodies(index, Some(contact.bodies()[1]) == second),
         friction: contact.law().friction(),
     })
+}
+
+/// Normal from the first to the second face of a crack near `x`, and how far they are open, m: by
+/// the displacements of its vertices since it was made, which is exact for a crack that was closed.
+fn faces<const D: usize>(
+    crack: &CrackLine,
+    in_order: bool,
+    x: &SVector<f64, D>,
+) -> (SVector<f64, D>, f64) {
+    let (normal, jump) = crack.face_at(&plane(x));
+    let sign = if in_order { 1.0 } else { -1.0 };
+    let mut towards = SVector::zeros();
+    (towards[0], towards[1]) = (normal.x * sign, normal.y * sign);
+    (towards, jump.dot(&normal))
 }

@@ -12,7 +12,8 @@ use super::kernels::Giving;
 use super::phases::{Pass, Phases, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::constraints::Constraints;
-use crate::nodes::NodeSums;
+use crate::crack_motion::{carry, refine};
+use crate::nodes::{MASSIVE, NodeSums, vector};
 use crate::placement::{Placement, check_columns, check_until};
 use crate::transfers::Transfers;
 
@@ -73,7 +74,8 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
     /// Sorts if a particle left its tile; checks a scene that its user changed.
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
         let strayed = std::mem::take(self.strayed.get_mut());
-        if !strayed && !self.placement.is_edited(scene) {
+        let sorts_anew = strayed || self.placement.cracks_have_moved(&self.grid);
+        if !sorts_anew && !self.placement.is_edited(scene) {
             return Ok(());
         }
         self.summed = false;
@@ -82,6 +84,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
                 self.fastest = None;
             }
             check_columns(scene)?;
+            refine(scene, &self.grid);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
             if self.settings.transfer == Transfer::Apic {
                 for body in scene.bodies_mut() {
@@ -232,6 +235,10 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         }
 
         // Everything succeeded: the trial becomes the present.
+        let end = &nodes.end;
+        carry(scene, grid, placement, |node| {
+            (end[node][MASSIVE] > 0.0).then(|| vector(&end[node]) * dt)
+        })?;
         for body in scene.bodies_mut() {
             body.commit()?;
         }

@@ -12,6 +12,7 @@ use super::balance::{
 use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
+use crate::crack_motion::{carry, refine};
 use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
 use crate::transfers::Transfers;
@@ -91,7 +92,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     }
 
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        if self.placement.is_current(scene) {
+        if self.placement.is_current(scene) && !self.placement.cracks_have_moved(&self.grid) {
             return Ok(());
         }
         if self.placement.is_edited(scene) {
@@ -100,6 +101,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 self.next_step = self.settings.step;
             }
             check_columns(scene)?;
+            refine(scene, &self.grid);
             if !scene.contacts().is_empty() {
                 return Err(SolveError::Unsupported {
                     what: "contact between bodies in a quasi-static step",
@@ -242,6 +244,16 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         dt: f64,
         equilibrium: Equilibrium<D>,
     ) -> Result<Report<D>, SolveError> {
+        let Self {
+            grid,
+            placement,
+            freedoms,
+            displacement,
+            ..
+        } = self;
+        carry(scene, grid, placement, |node| {
+            freedoms.nodes[node].active.then(|| displacement[node])
+        })?;
         for body in scene.bodies_mut() {
             body.commit()?;
         }
