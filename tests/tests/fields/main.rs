@@ -1,4 +1,4 @@
-//! Bodies with velocity fields of their own: impact, friction, bonds, conservation, bits.
+//! Nodes with several fields: impact, friction, bonds, cracks, conservation, bits.
 
 #![allow(
     missing_docs,
@@ -12,5 +12,6 @@
 mod bits;
 mod bond;
 mod conservation;
+mod crack;
 mod friction;
 mod impact;
