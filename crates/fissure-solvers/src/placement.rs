@@ -164,7 +164,6 @@ impl<const D: usize> Placement<D> {
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
-        self.crack_motion = 0.0;
         Ok(())
     }
 
@@ -200,6 +199,7 @@ impl<const D: usize> Placement<D> {
         }
         self.homes.clear();
         self.patterns.clear();
+        self.crack_motion = 0.0;
         let mut between = Between::new(grid, scene)?;
         for (body, owner) in scene.bodies().iter().enumerate() {
             for (index, x) in owner.motion().position.iter().enumerate() {

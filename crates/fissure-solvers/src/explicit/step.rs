@@ -81,10 +81,10 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
         self.summed = false;
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
+                refine(scene, &self.grid);
                 self.fastest = None;
             }
             check_columns(scene)?;
-            refine(scene, &self.grid);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
             if self.settings.transfer == Transfer::Apic {
                 for body in scene.bodies_mut() {

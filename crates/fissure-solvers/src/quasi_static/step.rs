@@ -97,11 +97,11 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         }
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
+                refine(scene, &self.grid);
                 (self.force_scale, self.has_stepped) = (0.0, false);
                 self.next_step = self.settings.step;
             }
             check_columns(scene)?;
-            refine(scene, &self.grid);
             if !scene.contacts().is_empty() {
                 return Err(SolveError::Unsupported {
                     what: "contact between bodies in a quasi-static step",
