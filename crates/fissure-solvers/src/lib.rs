@@ -8,10 +8,15 @@
 
 mod band;
 mod constraints;
+#[cfg(feature = "implicit")]
+mod equilibrium;
 mod explicit;
+#[cfg(feature = "implicit")]
+pub mod linear;
 mod loads;
 mod nodes;
 mod placement;
+#[cfg(feature = "implicit")]
 mod quasi_static;
 mod transfers;
 mod window;
@@ -19,4 +24,5 @@ mod window;
 pub use band::BandSource;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};
 pub use placement::Placement;
+#[cfg(feature = "implicit")]
 pub use quasi_static::{QuasiStatic, QuasiStaticSettings};

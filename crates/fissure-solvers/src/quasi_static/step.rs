@@ -5,13 +5,12 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use nalgebra::SVector;
 
-use super::assembly::Assembly;
-use super::balance::{
-    At, external_forces, forces, internal_forces, momenta, reactions, residual, strain, work,
-};
-use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
+use crate::equilibrium::balance::{
+    At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
+};
+use crate::equilibrium::system::System;
 use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
 use crate::transfers::Transfers;
@@ -23,8 +22,7 @@ pub struct QuasiStatic<S, const D: usize> {
     settings: QuasiStaticSettings,
     placement: Placement<D>,
     constraints: Constraints<D>,
-    freedoms: Freedoms<D>,
-    assembly: Assembly<D>,
+    system: System<D>,
     internal: NodeSums<D>,
     displacement: Vec<SVector<f64, D>>,
     tangents: Vec<Vec<Tangent>>,
@@ -78,8 +76,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             settings,
             placement: Placement::default(),
             constraints: Constraints::default(),
-            freedoms: Freedoms::default(),
-            assembly: Assembly::default(),
+            system: System::default(),
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
@@ -118,8 +115,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             settings,
             placement,
             constraints,
-            freedoms,
-            assembly,
+            system,
             internal,
             displacement,
             tangents,
@@ -140,11 +136,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         constraints
             .collect(scene, grid, shape, placement, end)
             .map_err(Failed::Refused)?;
-        assembly
-            .link(&transfers, scene)
+        system
+            .find(&transfers, scene, constraints)
             .map_err(|failed| off_grid(scene, failed))?;
-        let reached = assembly.reached(placement.tiles.node_count());
-        freedoms.number(reached.len(), |node| reached[node], constraints);
         // The sums hold the internal forces afterwards.
         momenta(&transfers, scene, internal).map_err(|failed| off_grid(scene, failed))?;
         let external_at = |time| {
@@ -173,14 +167,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
         let mut damping = LEAST_DAMPING;
         for iteration in 0..=settings.max_iterations {
-            let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
+            let totals = strain(scene, &transfers, displacement, settings.band, dt, tangents)
                 .map_err(Failed::Refused)?;
             internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
-            let (mut right, residual, reaction) = residual(freedoms, internal, &external);
+            let unbalanced = unbalanced(&system.links, &system.freedoms, internal, &external);
             // Of this state and of the steps accepted before, not of iterates that were left.
-            let scale = force_scale.max(reaction);
-            error = residual / if scale > 0.0 { scale } else { 1.0 };
+            let scale = force_scale.max(unbalanced.scale);
+            error = unbalanced.residual / if scale > 0.0 { scale } else { 1.0 };
             if !scale.is_finite() {
                 error = f64::INFINITY;
             }
@@ -210,16 +204,15 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             last = if placed { error } else { f64::INFINITY };
             before.clone_from(displacement);
-            assembly
-                .solve(
+            system
+                .correct(
                     scene,
-                    transfers.kinematics,
+                    &transfers,
                     tangents,
-                    freedoms,
-                    &mut right,
+                    unbalanced.force,
                     &held,
-                    displacement,
                     damping,
+                    displacement,
                 )
                 .map_err(|_| Failed::Singular)?;
             for (u, change) in displacement.iter_mut().zip(&mut held) {
