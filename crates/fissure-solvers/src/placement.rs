@@ -65,6 +65,7 @@ impl<const D: usize> Placement<D> {
     }
 
     /// Notes whether a particle has left the tile of its run, after a step.
+    #[cfg(feature = "implicit")]
     pub(crate) fn note_moves(&mut self, grid: &Grid<D>, scene: &Scene<D>) {
         let tiles = &self.tiles;
         self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {

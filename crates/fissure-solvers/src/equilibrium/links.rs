@@ -183,6 +183,13 @@ impl<const D: usize> Links<D> {
         (number != NONE).then_some(number as usize)
     }
 
+    /// Where the active nodes are, m.
+    pub(crate) fn positions<S>(&self, transfers: &Transfers<'_, S, D>) -> Vec<[f64; D]> {
+        let tiles = &transfers.placement.tiles;
+        let position = |&node: &u32| tiles.node_position(transfers.grid, node as usize).into();
+        self.active.iter().map(position).collect()
+    }
+
     /// Number of patches.
     pub(crate) fn patches(&self) -> usize {
         self.node_starts.len().saturating_sub(1)

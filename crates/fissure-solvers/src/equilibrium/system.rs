@@ -38,6 +38,14 @@ impl<const D: usize> System<D> {
         Ok(())
     }
 
+    /// Sums the stiffness of the trial state.
+    pub(crate) fn assemble(&mut self, scene: &Scene<D>, tangents: &[Vec<Tangent>]) {
+        if !self.stiffness.prepare(&self.links) {
+            self.direct = None;
+        }
+        self.stiffness.assemble(&self.links, scene, tangents);
+    }
+
     /// Solves `K δu = force − K δu_held` and adds `δu` to what is free of `displacement`; `held` has
     /// the change of the held components, as vectors of all nodes.
     #[allow(clippy::too_many_arguments)] // The system is made of all of them.
@@ -51,10 +59,7 @@ impl<const D: usize> System<D> {
         damping: f64,
         displacement: &mut [SVector<f64, D>],
     ) -> Result<(), LinearError> {
-        if !self.stiffness.prepare(&self.links) {
-            self.direct = None;
-        }
-        self.stiffness.assemble(&self.links, scene, tangents);
+        self.assemble(scene, tangents);
         let matrix = &mut self.stiffness.matrix;
         let active = &self.links.active;
         let changes: Vec<SVector<f64, D>> = active.iter().map(|&n| held[n as usize]).collect();
@@ -67,11 +72,7 @@ impl<const D: usize> System<D> {
         let direct = match &mut self.direct {
             Some(direct) => direct,
             none => {
-                let position = |&node: &u32| {
-                    let tiles = &transfers.placement.tiles;
-                    tiles.node_position(transfers.grid, node as usize).into()
-                };
-                let positions: Vec<[f64; D]> = active.iter().map(position).collect();
+                let positions = self.links.positions(transfers);
                 none.insert(Direct::new(matrix.pattern(), &positions)?)
             }
         };

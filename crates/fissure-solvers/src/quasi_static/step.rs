@@ -11,6 +11,7 @@ use crate::equilibrium::balance::{
     At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
 };
 use crate::equilibrium::system::System;
+use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
 use crate::transfers::Transfers;
@@ -85,6 +86,36 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             has_stepped: false,
             recalled: false,
         })
+    }
+
+    /// The tangent stiffness of the scene as it is, without what conditions hold, and the positions of
+    /// its nodes, m: a row of blocks for each node that a particle reaches.
+    ///
+    /// # Errors
+    /// Those of a step: a law or the grid refuses. The scene keeps its present motion.
+    pub fn stiffness(
+        &mut self,
+        scene: &mut Scene<D>,
+    ) -> Result<(&BlockMatrix<D>, Vec<[f64; D]>), SolveError> {
+        self.prepare(scene)?;
+        let transfers = Transfers {
+            grid: &self.grid,
+            shape: &self.shape,
+            placement: &self.placement,
+            kinematics: scene.kinematics(),
+            simd: Simd::widest(),
+        };
+        let off_grid = |(body, index)| outside(scene, body, index);
+        self.system
+            .find(&transfers, scene, &Constraints::default())
+            .map_err(off_grid)?;
+        let still = vec![SVector::zeros(); transfers.placement.tiles.node_count()];
+        self.tangents.resize(scene.bodies().len(), Vec::new());
+        let (band, dt) = (self.settings.band, self.settings.step);
+        strain(scene, &transfers, &still, band, dt, &mut self.tangents)?;
+        self.system.assemble(scene, &self.tangents);
+        let positions = self.system.links.positions(&transfers);
+        Ok((&self.system.stiffness.matrix, positions))
     }
 
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
