@@ -9,11 +9,16 @@
 mod band;
 mod constraints;
 mod crack_motion;
+#[cfg(feature = "implicit")]
+mod equilibrium;
 mod explicit;
 mod groups;
+#[cfg(feature = "implicit")]
+pub mod linear;
 mod loads;
 mod nodes;
 mod placement;
+#[cfg(feature = "implicit")]
 mod quasi_static;
 mod splits;
 mod transfers;
@@ -22,4 +27,5 @@ mod window;
 pub use band::BandSource;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};
 pub use placement::Placement;
+#[cfg(feature = "implicit")]
 pub use quasi_static::{QuasiStatic, QuasiStaticSettings};

@@ -4,6 +4,7 @@ use fissure_grid::{Grid, Tiles, tile_of};
 use fissure_particles::sort_permutation;
 use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
+#[cfg(feature = "implicit")]
 use rayon::prelude::*;
 
 use crate::groups::{Between, Groups, Pattern};
@@ -96,6 +97,7 @@ impl<const D: usize> Placement<D> {
     }
 
     /// Notes whether a particle has left the tile of its run, after a step.
+    #[cfg(feature = "implicit")]
     pub(crate) fn note_moves(&mut self, grid: &Grid<D>, scene: &Scene<D>) {
         self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {
             let position = body.motion().position;

@@ -31,7 +31,8 @@
 //! # }
 //! ```
 //!
-//! Features, both off: `plots` for [`io`]'s figures, `progress` for a bar on the terminal.
+//! Features: `implicit` (on) for the quasi-static and implicit solvers, `plots` and `progress` (off) for
+//! [`io`]'s figures and a bar on the terminal.
 //!
 //! The numbered examples beside this crate go on from here: `cargo run -p fissure --example 00_point`.
 
@@ -75,10 +76,9 @@ pub mod prelude {
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;
-    pub use fissure_solvers::{
-        BandSource, Explicit, ExplicitSettings, QuasiStatic, QuasiStaticSettings, StressUpdate,
-        Transfer,
-    };
+    pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
+    #[cfg(feature = "implicit")]
+    pub use fissure_solvers::{QuasiStatic, QuasiStaticSettings};
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     // The module too: `vector!` expands to paths into it.
     pub use nalgebra::{self, SVector, Vector2, vector};

@@ -5,14 +5,14 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use nalgebra::SVector;
 
-use super::assembly::Assembly;
-use super::balance::{
-    At, external_forces, forces, internal_forces, momenta, reactions, residual, strain, work,
-};
-use super::freedoms::Freedoms;
 use super::settings::QuasiStaticSettings;
 use crate::constraints::Constraints;
 use crate::crack_motion::{carry, refine};
+use crate::equilibrium::balance::{
+    At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
+};
+use crate::equilibrium::system::System;
+use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
 use crate::transfers::Transfers;
@@ -24,8 +24,7 @@ pub struct QuasiStatic<S, const D: usize> {
     settings: QuasiStaticSettings,
     placement: Placement<D>,
     constraints: Constraints<D>,
-    freedoms: Freedoms<D>,
-    assembly: Assembly<D>,
+    system: System<D>,
     internal: NodeSums<D>,
     displacement: Vec<SVector<f64, D>>,
     tangents: Vec<Vec<Tangent>>,
@@ -79,8 +78,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             settings,
             placement: Placement::default(),
             constraints: Constraints::default(),
-            freedoms: Freedoms::default(),
-            assembly: Assembly::default(),
+            system: System::default(),
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
@@ -89,6 +87,36 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             has_stepped: false,
             recalled: false,
         })
+    }
+
+    /// The tangent stiffness of the scene as it is, without what conditions hold, and the positions of
+    /// its nodes, m: a row of blocks for each node that a particle reaches.
+    ///
+    /// # Errors
+    /// Those of a step: a law or the grid refuses. The scene keeps its present motion.
+    pub fn stiffness(
+        &mut self,
+        scene: &mut Scene<D>,
+    ) -> Result<(&BlockMatrix<D>, Vec<[f64; D]>), SolveError> {
+        self.prepare(scene)?;
+        let transfers = Transfers {
+            grid: &self.grid,
+            shape: &self.shape,
+            placement: &self.placement,
+            kinematics: scene.kinematics(),
+            simd: Simd::widest(),
+        };
+        let off_grid = |(body, index)| outside(scene, body, index);
+        self.system
+            .find(&transfers, scene, &Constraints::default())
+            .map_err(off_grid)?;
+        let still = vec![SVector::zeros(); transfers.placement.node_count()];
+        self.tangents.resize(scene.bodies().len(), Vec::new());
+        let (band, dt) = (self.settings.band, self.settings.step);
+        strain(scene, &transfers, &still, band, dt, &mut self.tangents)?;
+        self.system.assemble(scene, &self.tangents);
+        let positions = self.system.links.positions(&transfers);
+        Ok((&self.system.stiffness.matrix, positions))
     }
 
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
@@ -125,8 +153,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             settings,
             placement,
             constraints,
-            freedoms,
-            assembly,
+            system,
             internal,
             displacement,
             tangents,
@@ -147,11 +174,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         constraints
             .collect(scene, grid, shape, placement, end)
             .map_err(Failed::Refused)?;
-        assembly
-            .link(&transfers, scene)
+        system
+            .find(&transfers, scene, constraints)
             .map_err(|failed| off_grid(scene, failed))?;
-        let reached = assembly.reached(placement.node_count());
-        freedoms.number(reached.len(), |node| reached[node], constraints);
         // The sums hold the internal forces afterwards.
         momenta(&transfers, scene, internal).map_err(|failed| off_grid(scene, failed))?;
         let external_at = |time| {
@@ -180,14 +205,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
         let mut damping = LEAST_DAMPING;
         for iteration in 0..=settings.max_iterations {
-            let totals = strain(scene, &transfers, displacement, settings, dt, tangents)
+            let totals = strain(scene, &transfers, displacement, settings.band, dt, tangents)
                 .map_err(Failed::Refused)?;
             internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
-            let (mut right, residual, reaction) = residual(freedoms, internal, &external);
+            let unbalanced = unbalanced(&system.links, &system.freedoms, internal, &external);
             // Of this state and of the steps accepted before, not of iterates that were left.
-            let scale = force_scale.max(reaction);
-            error = residual / if scale > 0.0 { scale } else { 1.0 };
+            let scale = force_scale.max(unbalanced.scale);
+            error = unbalanced.residual / if scale > 0.0 { scale } else { 1.0 };
             if !scale.is_finite() {
                 error = f64::INFINITY;
             }
@@ -217,16 +242,15 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             last = if placed { error } else { f64::INFINITY };
             before.clone_from(displacement);
-            assembly
-                .solve(
+            system
+                .correct(
                     scene,
-                    transfers.kinematics,
+                    &transfers,
                     tangents,
-                    freedoms,
-                    &mut right,
+                    unbalanced.force,
                     &held,
-                    displacement,
                     damping,
+                    displacement,
                 )
                 .map_err(|_| Failed::Singular)?;
             for (u, change) in displacement.iter_mut().zip(&mut held) {
@@ -247,12 +271,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let Self {
             grid,
             placement,
-            freedoms,
+            system,
             displacement,
             ..
         } = self;
         carry(scene, grid, placement, |node| {
-            freedoms.nodes[node].active.then(|| displacement[node])
+            system.links.number(node).map(|_| displacement[node])
         })?;
         for body in scene.bodies_mut() {
             body.commit()?;

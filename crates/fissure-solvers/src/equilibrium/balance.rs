@@ -5,21 +5,23 @@ use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
-use super::assembly::relative;
-use super::freedoms::{Freedoms, NONE};
+use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
-use super::settings::QuasiStaticSettings;
+use super::links::Links;
+use super::stiffness::relative;
+use crate::band::BandSource;
 use crate::constraints::Constraints;
+use crate::linear::norm;
 use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
 /// Trial motion, stresses and tangents for nodal displacements.
-pub(super) fn strain<S: Shape<D>, const D: usize>(
+pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
-    settings: &QuasiStaticSettings,
+    band: BandSource,
     dt: f64,
     tangents: &mut [Vec<Tangent>],
 ) -> Result<SweepTotals, SolveError> {
@@ -34,7 +36,7 @@ pub(super) fn strain<S: Shape<D>, const D: usize>(
         };
         let sweep = SweepSettings {
             dt,
-            band: settings.band.band(transfers.shape, transfers.grid, body),
+            band: band.band(transfers.shape, transfers.grid, body),
             viscosity: None,
         };
         let runs = &transfers.placement.runs[index];
@@ -47,7 +49,7 @@ pub(super) fn strain<S: Shape<D>, const D: usize>(
 }
 
 /// Masses and momenta at the nodes.
-pub(super) fn momenta<S: Shape<D>, const D: usize>(
+pub(crate) fn momenta<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
     sums: &mut NodeSums<D>,
@@ -59,7 +61,7 @@ pub(super) fn momenta<S: Shape<D>, const D: usize>(
 }
 
 /// Body forces and loads at the nodes, N, from their masses.
-pub(super) fn external_forces<S: Shape<D>, const D: usize>(
+pub(crate) fn external_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
     masses: &NodeSums<D>,
@@ -74,7 +76,7 @@ pub(super) fn external_forces<S: Shape<D>, const D: usize>(
 
 /// When internal forces are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum At {
+pub(crate) enum At {
     /// Before the step: of the present stresses.
     Start,
     /// After it: of the trial stresses, with gradients at the end of the step.
@@ -82,7 +84,7 @@ pub(super) enum At {
 }
 
 /// Internal forces of the stresses on the nodes.
-pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
+pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
     sums: &mut NodeSums<D>,
@@ -112,33 +114,43 @@ pub(super) fn internal_forces<S: Shape<D>, const D: usize>(
     })
 }
 
-/// Unbalanced force of every equation, its norm, and the norm of the reactions and loads.
-pub(super) fn residual<const D: usize>(
+/// What is out of balance.
+pub(crate) struct Unbalanced {
+    /// Force on every active node, component by component, N.
+    pub force: Vec<f64>,
+    /// Norm of what is not held of it, N.
+    pub residual: f64,
+    /// Norm of the reactions and of the loads on what is free, N: what residuals are measured by.
+    pub scale: f64,
+}
+
+/// The forces that are out of balance.
+pub(crate) fn unbalanced<const D: usize>(
+    links: &Links<D>,
     freedoms: &Freedoms<D>,
     internal: &NodeSums<D>,
     external: &[SVector<f64, D>],
-) -> (Vec<f64>, f64, f64) {
-    let mut right = vec![0.0; freedoms.count];
-    let (mut unbalanced, mut reaction): (f64, f64) = (0.0, 0.0);
-    for ((number, node), external) in freedoms.nodes.iter().enumerate().zip(external) {
-        let force = internal.internal_force(number) + external;
-        for (direction, &equation) in node.directions.iter().zip(&node.equations) {
-            let component = direction.dot(&force);
-            if equation != NONE {
-                right[equation as usize] = component;
-                unbalanced += component * component;
-                let load = direction.dot(external);
-                reaction += load * load;
-            } else {
-                reaction += component * component;
-            }
-        }
+) -> Unbalanced {
+    let mut force = Vec::with_capacity(D * links.active.len());
+    let mut load = Vec::with_capacity(D * links.active.len());
+    for &node in &links.active {
+        let node = node as usize;
+        force.extend((internal.internal_force(node) + external[node]).iter());
+        load.extend(external[node].iter());
     }
-    (right, unbalanced.sqrt(), reaction.sqrt())
+    let reactions = freedoms.held_square(&force);
+    let mut free = force.clone();
+    freedoms.turn(&mut free);
+    freedoms.turn(&mut load);
+    Unbalanced {
+        force,
+        residual: norm(&free),
+        scale: (reactions + norm(&load).powi(2)).sqrt(),
+    }
 }
 
 /// Force that each condition exerts, N.
-pub(super) fn reactions<const D: usize>(
+pub(crate) fn reactions<const D: usize>(
     scene: &Scene<D>,
     constraints: &Constraints<D>,
     internal: &NodeSums<D>,
@@ -155,13 +167,13 @@ pub(super) fn reactions<const D: usize>(
 }
 
 /// Internal forces of all nodes, N.
-pub(super) fn forces<const D: usize>(internal: &NodeSums<D>) -> Vec<SVector<f64, D>> {
+pub(crate) fn forces<const D: usize>(internal: &NodeSums<D>) -> Vec<SVector<f64, D>> {
     let nodes = 0..internal.len();
     nodes.map(|node| internal.internal_force(node)).collect()
 }
 
 /// Work of nodal forces over the step, J: mean of start and end, times the way.
-pub(super) fn work<const D: usize>(
+pub(crate) fn work<const D: usize>(
     before: &[SVector<f64, D>],
     now: &[SVector<f64, D>],
     displacement: &[SVector<f64, D>],

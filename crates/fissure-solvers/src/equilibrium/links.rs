@@ -1,0 +1,243 @@
+//! Which nodes the particles reach.
+//!
+//! Particles that reach the same nodes form a **patch** (with linear functions, those of a cell),
+//! like the integration points of an element. The patches give the pattern of the stiffness.
+
+use fissure_grid::{Shape, Stencil};
+use fissure_scene::Scene;
+use nalgebra::SVector;
+
+use crate::linear::BlockPattern;
+use crate::transfers::Transfers;
+
+/// A weight, or a gradient times the spacing, below this is round-off of a node that is not reached.
+const REACHED: f64 = 1e-14;
+/// Marks a node that no particle reaches.
+const NONE: u32 = u32::MAX;
+
+/// What a particle's shape function is at a node it reaches, at the start of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Link<const D: usize> {
+    pub weight: f64,
+    pub gradient: SVector<f64, D>,
+}
+
+/// A particle of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Member {
+    pub body: u32,
+    /// Its row among the particles of the body.
+    pub index: u32,
+    /// Its first link; one for each node of the patch, in their order.
+    first: u32,
+}
+
+/// The nodes that any particle reaches ("active" ones, with numbers of their own), and the patches.
+#[derive(Debug, Default)]
+pub(crate) struct Links<const D: usize> {
+    /// Active nodes, ascending.
+    pub active: Vec<u32>,
+    /// Number of every node among the active ones.
+    numbers: Vec<u32>,
+    /// Nodes of the patches by their numbers, and where each patch's begin.
+    nodes: Vec<u32>,
+    node_starts: Vec<u32>,
+    /// Particles of the patches, and where each patch's begin.
+    members: Vec<Member>,
+    member_starts: Vec<u32>,
+    links: Vec<Link<D>>,
+}
+
+/// A patch.
+pub(crate) struct Patch<'a, const D: usize> {
+    /// Numbers of its nodes.
+    pub nodes: &'a [u32],
+    /// Its particles.
+    pub members: &'a [Member],
+    links: &'a [Link<D>],
+}
+
+impl<const D: usize> Patch<'_, D> {
+    /// Links of a particle to the nodes of the patch.
+    pub(crate) fn links(&self, member: &Member) -> &[Link<D>] {
+        &self.links[member.first as usize..member.first as usize + self.nodes.len()]
+    }
+}
+
+impl<const D: usize> Links<D> {
+    /// Lists the nodes that every particle reaches.
+    ///
+    /// # Errors
+    /// Body and index of a particle off the grid.
+    pub(crate) fn find<S: Shape<D>>(
+        &mut self,
+        transfers: &Transfers<'_, S, D>,
+        scene: &Scene<D>,
+    ) -> Result<(), (usize, usize)> {
+        self.nodes.clear();
+        self.node_starts.clear();
+        self.node_starts.push(0);
+        self.links.clear();
+        // Particles with the patch of each.
+        let mut found: Vec<(u32, Member)> = Vec::with_capacity(scene.particle_count());
+        let placement = transfers.placement;
+        let spacing = transfers.grid.spacing();
+        let mut reached = Vec::new();
+        for (body_index, body) in scene.bodies().iter().enumerate() {
+            let mut last_window = None;
+            let mut first_patch = 0;
+            for run in &placement.runs[body_index] {
+                let window = placement.nodes(run.window);
+                let coordinates = placement.coordinates(run.window);
+                // Patches are sought among those of the window.
+                if last_window.replace(run.window) != Some(run.window) {
+                    first_patch = self.patches();
+                }
+                for index in run.start as usize..run.end as usize {
+                    let stencil = transfers.stencil(body, coordinates, index);
+                    let stencil = stencil.ok_or((body_index, index))?;
+                    let first = self.links.len();
+                    reached.clear();
+                    stencil.visit(|entry, weight, gradient| {
+                        if weight > REACHED || gradient.amax() * spacing > REACHED {
+                            let node = window.node(entry) as u32;
+                            let link = Link { weight, gradient };
+                            add_link(&mut reached, &mut self.links, first, node, link);
+                        }
+                    });
+                    let patch = self.patch_of(first_patch, &reached);
+                    let member = Member {
+                        body: body_index as u32,
+                        index: index as u32,
+                        first: first as u32,
+                    };
+                    found.push((patch as u32, member));
+                }
+            }
+        }
+        self.sort_members(&found);
+        self.number_active(placement.node_count());
+        Ok(())
+    }
+
+    /// The patch of these nodes among those from `first` on, a new one if there is none.
+    fn patch_of(&mut self, first: usize, reached: &[u32]) -> usize {
+        for patch in (first..self.patches()).rev() {
+            let nodes = self.node_starts[patch] as usize..self.node_starts[patch + 1] as usize;
+            if self.nodes[nodes] == *reached {
+                return patch;
+            }
+        }
+        self.nodes.extend_from_slice(reached);
+        self.node_starts.push(self.nodes.len() as u32);
+        self.patches() - 1
+    }
+
+    fn sort_members(&mut self, found: &[(u32, Member)]) {
+        let mut starts = vec![0_u32; self.patches() + 1];
+        for (patch, _) in found {
+            starts[*patch as usize + 1] += 1;
+        }
+        for patch in 1..starts.len() {
+            starts[patch] += starts[patch - 1];
+        }
+        let mut next = starts.clone();
+        let nobody = Member {
+            body: 0,
+            index: 0,
+            first: 0,
+        };
+        self.members.clear();
+        self.members.resize(found.len(), nobody);
+        for (patch, member) in found {
+            let place = &mut next[*patch as usize];
+            self.members[*place as usize] = *member;
+            *place += 1;
+        }
+        self.member_starts = starts;
+    }
+
+    fn number_active(&mut self, node_count: usize) {
+        self.numbers.clear();
+        self.numbers.resize(node_count, NONE);
+        for &node in &self.nodes {
+            self.numbers[node as usize] = 0;
+        }
+        self.active.clear();
+        for (node, number) in self.numbers.iter_mut().enumerate() {
+            if *number != NONE {
+                *number = self.active.len() as u32;
+                self.active.push(node as u32);
+            }
+        }
+        for node in &mut self.nodes {
+            *node = self.numbers[*node as usize];
+        }
+    }
+
+    /// Number of a node among the active ones.
+    pub(crate) fn number(&self, node: usize) -> Option<usize> {
+        let number = *self.numbers.get(node)?;
+        (number != NONE).then_some(number as usize)
+    }
+
+    /// Where the active nodes are, m.
+    pub(crate) fn positions<S>(&self, transfers: &Transfers<'_, S, D>) -> Vec<[f64; D]> {
+        let (grid, placement) = (transfers.grid, transfers.placement);
+        let position = |&node: &u32| placement.node_position(grid, node as usize).into();
+        self.active.iter().map(position).collect()
+    }
+
+    /// Number of patches.
+    pub(crate) fn patches(&self) -> usize {
+        self.node_starts.len().saturating_sub(1)
+    }
+
+    /// A patch.
+    pub(crate) fn patch(&self, patch: usize) -> Patch<'_, D> {
+        let range = |starts: &[u32]| starts[patch] as usize..starts[patch + 1] as usize;
+        Patch {
+            nodes: &self.nodes[range(&self.node_starts)],
+            members: &self.members[range(&self.member_starts)],
+            links: &self.links,
+        }
+    }
+
+    /// Nodes of every patch, patch by patch.
+    fn patch_nodes(&self) -> impl Iterator<Item = &[u32]> + Clone {
+        let starts = self.node_starts.windows(2);
+        starts.map(|ends| &self.nodes[ends[0] as usize..ends[1] as usize])
+    }
+
+    /// The blocks of the stiffness.
+    pub(crate) fn pattern(&self) -> BlockPattern {
+        BlockPattern::of_elements(self.active.len(), self.patch_nodes())
+    }
+
+    /// Whether `nodes` and `starts` are those of the patches.
+    pub(crate) fn are_of(&self, nodes: &[u32], starts: &[u32]) -> bool {
+        self.nodes == nodes && self.node_starts == starts
+    }
+
+    /// Nodes of the patches by their numbers, and where each patch's begin.
+    pub(crate) fn lists(&self) -> (&[u32], &[u32]) {
+        (&self.nodes, &self.node_starts)
+    }
+}
+
+/// Adds a node to a particle's links; one that it reaches twice (CPDI) is summed.
+fn add_link<const D: usize>(
+    reached: &mut Vec<u32>,
+    links: &mut Vec<Link<D>>,
+    first: usize,
+    node: u32,
+    link: Link<D>,
+) {
+    if let Some(known) = reached.iter().position(|&known| known == node) {
+        links[first + known].weight += link.weight;
+        links[first + known].gradient += link.gradient;
+    } else {
+        reached.push(node);
+        links.push(link);
+    }
+}

@@ -1,0 +1,13 @@
+//! What quasi-static and implicit steps share: the balance of forces at the end of a step, as a
+//! function of the displacement increments of the nodes, and its derivative.
+//!
+//! `links` lists which nodes a particle reaches at the start of the step, `kernel` strains the
+//! particles, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
+//! conditions hold.
+
+pub(crate) mod balance;
+pub(crate) mod freedoms;
+pub(crate) mod kernel;
+pub(crate) mod links;
+pub(crate) mod stiffness;
+pub(crate) mod system;

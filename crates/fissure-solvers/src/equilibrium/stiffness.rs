@@ -1,0 +1,228 @@
+//! The tangent stiffness: what the internal forces do when nodes are displaced.
+//!
+//! `K_ij = Σ_p J V (∇_x N_i·c·∇_x N_j + (∇_x N_i·σ·∇_x N_j) 1)` with `∇_x N = f⁻ᵀ ∇N` the gradients at
+//! the end of the step, `c` the law's Truesdell tangent and `σ` its stress.
+
+use fissure_materials::Tangent;
+use fissure_scene::{Kinematics, Scene};
+use nalgebra::{SMatrix, SVector};
+use rayon::prelude::*;
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use super::links::{Link, Links, Member, Patch};
+use crate::linear::BlockMatrix;
+
+/// Blocks of patches that are computed before they are added, in one order, to the matrix.
+const BATCH: usize = 1 << 17;
+
+/// The stiffness of a scene's trial state.
+#[derive(Default)]
+pub(crate) struct Stiffness<const D: usize> {
+    /// Without conditions, in the axes of space; a row of blocks per active node.
+    pub matrix: BlockMatrix<D>,
+    /// Places of each patch's blocks in the matrix, row by row.
+    places: Vec<u32>,
+    place_starts: Vec<usize>,
+    /// What the pattern was made for.
+    nodes: Vec<u32>,
+    node_starts: Vec<u32>,
+}
+
+impl<const D: usize> Stiffness<D> {
+    /// Finds the pattern unless the last one still fits; whether it did.
+    pub(crate) fn prepare(&mut self, links: &Links<D>) -> bool {
+        if links.are_of(&self.nodes, &self.node_starts) {
+            return true;
+        }
+        let (nodes, starts) = links.lists();
+        nodes.clone_into(&mut self.nodes);
+        starts.clone_into(&mut self.node_starts);
+        self.matrix = BlockMatrix::zeros(links.pattern());
+        self.places.clear();
+        self.place_starts.clear();
+        self.place_starts.push(0);
+        let pattern = self.matrix.pattern();
+        for ends in starts.windows(2) {
+            let nodes = &nodes[ends[0] as usize..ends[1] as usize];
+            for &row in nodes {
+                let first = pattern.row(row as usize).start;
+                let neighbours = pattern.neighbours(row as usize);
+                for column in nodes {
+                    // The pattern was made of these pairs.
+                    let found = neighbours.partition_point(|other| other < column);
+                    self.places.push((first + found) as u32);
+                }
+            }
+            self.place_starts.push(self.places.len());
+        }
+        false
+    }
+
+    /// Sums the matrix of the trial state.
+    pub(crate) fn assemble(
+        &mut self,
+        links: &Links<D>,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+    ) {
+        match D {
+            2 => self.assemble_with::<4>(links, scene, tangents),
+            _ => self.assemble_with::<6>(links, scene, tangents),
+        }
+    }
+
+    fn assemble_with<const V: usize>(
+        &mut self,
+        links: &Links<D>,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+    ) {
+        self.matrix.clear();
+        let mut start = 0;
+        while start < links.patches() {
+            let last = self.place_starts[start] + BATCH;
+            let end = self.place_starts.partition_point(|&place| place <= last) - 1;
+            let end = end.clamp(start + 1, links.patches());
+            let chunks: Vec<usize> = (start..end).step_by(CHUNK).collect();
+            let parts: Vec<Vec<SMatrix<f64, D, D>>> = chunks
+                .par_iter()
+                .map(|&first| {
+                    let last = (first + CHUNK).min(end);
+                    let count = self.place_starts[last] - self.place_starts[first];
+                    let mut blocks = vec![SMatrix::zeros(); count];
+                    let mut nodes = Vec::new();
+                    for patch in first..last {
+                        let offset = self.place_starts[patch] - self.place_starts[first];
+                        let of_patch = links.patch(patch);
+                        for member in of_patch.members {
+                            let point = Strained::<D, V>::new(&of_patch, member, scene, tangents);
+                            point.add(&mut blocks[offset..], &mut nodes);
+                        }
+                    }
+                    blocks
+                })
+                .collect();
+            for (first, part) in chunks.iter().zip(&parts) {
+                let places = &self.places[self.place_starts[*first]..];
+                for (place, block) in places.iter().zip(part) {
+                    self.matrix.blocks[*place as usize] += block;
+                }
+            }
+            start = end;
+        }
+    }
+}
+
+/// Patches that a thread works on at a time.
+const CHUNK: usize = 64;
+
+/// Strain rates per unit nodal displacement of one particle, in `V` Mandel components, and the
+/// stresses that answer them.
+struct Strained<'a, const D: usize, const V: usize> {
+    links: &'a [Link<D>],
+    /// `f⁻ᵀ`: takes gradients to the end of the step.
+    relative: SMatrix<f64, D, D>,
+    /// The tangent times the volume.
+    tangent: SMatrix<f64, V, V>,
+    /// The stress times the volume.
+    stress: SMatrix<f64, D, D>,
+    hoop_stress: f64,
+    /// `1/r` of an axisymmetric scene, else 0.
+    inverse_radius: f64,
+}
+
+impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
+    fn new(
+        patch: &'a Patch<'_, D>,
+        member: &Member,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+    ) -> Self {
+        let (body, index) = (member.body as usize, member.index as usize);
+        let particles = scene.bodies()[body].particles();
+        let f_old = &particles.motion.deformation_gradient[index];
+        let f_new = &particles.trial.deformation_gradient[index];
+        let volume = particles.volume[index] * f_new.determinant();
+        let stress = &particles.trial.stress[index];
+        let tangent = &tangents[body][index].0;
+        let component = |row: usize| if V == 4 && row == 3 { 5 } else { row };
+        let full = stress.to_matrix();
+        Self {
+            links: patch.links(member),
+            relative: relative(f_new, f_old),
+            tangent: SMatrix::from_fn(|i, j| tangent[(component(i), component(j))] * volume),
+            stress: SMatrix::from_fn(|i, j| full[(i, j)] * volume),
+            hoop_stress: stress.zz() * volume,
+            inverse_radius: inverse_radius(scene, &particles.trial.position[index]),
+        }
+    }
+
+    /// Strains of unit displacements of a node along the axes.
+    #[inline]
+    fn strain(&self, gradient: &SVector<f64, D>, weight: f64) -> SMatrix<f64, V, D> {
+        let mut strain = SMatrix::<f64, V, D>::zeros();
+        for axis in 0..D {
+            strain[(axis, axis)] = gradient[axis];
+        }
+        if V == 4 {
+            strain[(2, 0)] += weight * self.inverse_radius;
+            strain[(3, 0)] = FRAC_1_SQRT_2 * gradient[1];
+            strain[(3, 1)] = FRAC_1_SQRT_2 * gradient[0];
+        } else {
+            for (row, a, b) in [(3, 1, 2), (4, 0, 2), (5, 0, 1)] {
+                strain[(row, a)] = FRAC_1_SQRT_2 * gradient[b];
+                strain[(row, b)] = FRAC_1_SQRT_2 * gradient[a];
+            }
+        }
+        strain
+    }
+
+    /// Adds the blocks of every pair of nodes; `nodes` is kept for its memory.
+    fn add(
+        &self,
+        blocks: &mut [SMatrix<f64, D, D>],
+        nodes: &mut Vec<(SVector<f64, D>, SMatrix<f64, V, D>)>,
+    ) {
+        nodes.clear();
+        nodes.extend(self.links.iter().map(|link| {
+            let gradient = self.relative * link.gradient;
+            (gradient, self.strain(&gradient, link.weight))
+        }));
+        let count = nodes.len();
+        let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress;
+        // The law's tangent need not be symmetric: rows test, columns answer.
+        for (column, (gradient, strain)) in nodes.iter().enumerate() {
+            let stress = self.tangent * strain;
+            let traction = self.stress * gradient;
+            for (row, (gradient, strain)) in nodes.iter().enumerate() {
+                let block = &mut blocks[row * count + column];
+                *block += strain.tr_mul(&stress);
+                let turning = gradient.dot(&traction);
+                for axis in 0..D {
+                    block[(axis, axis)] += turning;
+                }
+                block[(0, 0)] += hoop * self.links[row].weight * self.links[column].weight;
+            }
+        }
+    }
+}
+
+/// `f⁻ᵀ` of the step's own deformation `f = F_new F_old⁻¹`, in the scene's dimensions.
+pub(crate) fn relative<const D: usize>(
+    f_new: &nalgebra::Matrix3<f64>,
+    f_old: &nalgebra::Matrix3<f64>,
+) -> SMatrix<f64, D, D> {
+    // f⁻ᵀ = F_new⁻ᵀ F_oldᵀ; both determinants are positive, since the law has accepted them.
+    let inverse = f_new
+        .try_inverse()
+        .unwrap_or_else(nalgebra::Matrix3::identity);
+    let transposed = inverse.transpose() * f_old.transpose();
+    SMatrix::from_fn(|i, j| transposed[(i, j)])
+}
+
+fn inverse_radius<const D: usize>(scene: &Scene<D>, position: &SVector<f64, D>) -> f64 {
+    match scene.kinematics() {
+        Kinematics::Axisymmetric => position[0].recip(),
+        _ => 0.0,
+    }
+}
