@@ -311,6 +311,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
     type State = AnisotropicDamageState;
     /// `σ = R·T·Rᵀ` leaves out factors of stretch.
     const HYPERELASTIC: bool = false;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &[
         "opening",
         "normal_damage",
@@ -379,6 +380,10 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &AnisotropicDamageState, scale: &Scale) -> f64 {
         let stretch = Biot::longest_stretch(f);
         self.elastic.scaled(scale).p_wave_speed() * stretch * stretch
+    }
+
+    fn has_history(&self, state: &AnisotropicDamageState) -> bool {
+        state.width != 0.0
     }
 
     #[inline]

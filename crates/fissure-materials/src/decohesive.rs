@@ -209,6 +209,7 @@ impl<S: Softening> Point<'_, S> {
 
 impl<S: Softening> Material for Decohesive<S> {
     type State = DecohesiveState;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "softened", "failed"];
     const STEP_ERROR: f64 = 0.0;
 
@@ -255,6 +256,10 @@ impl<S: Softening> Material for Decohesive<S> {
     /// reaches in the current configuration, along or across an open crack.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &DecohesiveState, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &DecohesiveState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

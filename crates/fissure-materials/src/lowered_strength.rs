@@ -117,7 +117,7 @@ impl<M: Material> LoweredStrength<M> {
         inner: Response<M::State>,
         factor: f64,
     ) -> Response<LoweredStrengthState<M::State>> {
-        let begun = inner.state != self.0.initial();
+        let begun = self.0.has_history(&inner.state);
         Response {
             stress: inner.stress,
             state: LoweredStrengthState {
@@ -144,6 +144,7 @@ impl<M: Material> Material for LoweredStrength<M> {
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
     const PLANE: bool = M::PLANE;
+    const SPARSE: bool = M::SPARSE;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -178,6 +179,17 @@ impl<M: Material> Material for LoweredStrength<M> {
     fn initial(&self) -> Self::State {
         LoweredStrengthState {
             inner: self.0.initial(),
+            factor: 0.0,
+        }
+    }
+
+    fn has_history(&self, state: &Self::State) -> bool {
+        self.0.has_history(&state.inner)
+    }
+
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        LoweredStrengthState {
+            inner: self.0.without_history(f),
             factor: 0.0,
         }
     }

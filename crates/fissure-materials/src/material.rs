@@ -49,6 +49,12 @@ pub trait Material: Send + Sync + 'static {
     /// checks then strain and turn it in the plane.
     const PLANE: bool = false;
 
+    /// Whether bodies keep the states of those particles alone that have a history, which spares
+    /// the others all but four bytes. For laws whose state is that of
+    /// [`without_history`](Self::without_history) until something happens that seldom does, as
+    /// damage.
+    const SPARSE: bool = false;
+
     /// Names of what [`values`](Self::values) writes, for output and probes.
     const NAMES: &'static [&'static str] = &[];
 
@@ -97,6 +103,18 @@ pub trait Material: Send + Sync + 'static {
     /// State of an undeformed particle.
     fn initial(&self) -> Self::State {
         Self::State::default()
+    }
+
+    /// Whether a state has to be kept; if not, it is that of
+    /// [`without_history`](Self::without_history) at the deformation gradient it was reached at.
+    /// Asked of [`SPARSE`](Self::SPARSE) laws only.
+    fn has_history(&self, state: &Self::State) -> bool {
+        *state != self.initial()
+    }
+
+    /// The state of a particle to which nothing has happened, at its deformation gradient.
+    fn without_history(&self, _f: &Matrix3<f64>) -> Self::State {
+        self.initial()
     }
 
     /// Stress, state and energies at the end of an increment.

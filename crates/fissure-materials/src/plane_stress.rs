@@ -50,7 +50,9 @@ impl<M: Material> PlaneStress<M> {
             stress,
             state: PlaneStressState {
                 inner: solved.response.state,
-                thickening: solved.thickening,
+                // What `F₃₃` can hold, so that a state follows from it (`without_history`); the law
+                // inside has seen no more.
+                thickening: (1.0 + solved.thickening) - 1.0,
             },
             stored: solved.response.stored,
             dissipated: solved.response.dissipated,
@@ -138,6 +140,7 @@ impl<M: Material> Material for PlaneStress<M> {
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
     const PLANE: bool = true;
+    const SPARSE: bool = M::SPARSE;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -184,6 +187,18 @@ impl<M: Material> Material for PlaneStress<M> {
         PlaneStressState {
             inner: self.0.initial(),
             thickening: 0.0,
+        }
+    }
+
+    fn has_history(&self, state: &Self::State) -> bool {
+        self.0.has_history(&state.inner)
+    }
+
+    /// The thickness is that of the deformation gradient, to the last bit.
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        PlaneStressState {
+            inner: self.0.without_history(f),
+            thickening: f.m33 - 1.0,
         }
     }
 

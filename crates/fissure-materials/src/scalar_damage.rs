@@ -273,6 +273,7 @@ impl<E: DamageEvolution> ScalarDamage<E> {
 
 impl<E: DamageEvolution> Material for ScalarDamage<E> {
     type State = ScalarDamageState;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["damage", "largest"];
     const STEP_ERROR: f64 = 0.0;
 
@@ -296,6 +297,10 @@ impl<E: DamageEvolution> Material for ScalarDamage<E> {
     /// That of the sound material times the longest stretch, as for every law on the Biot strain.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &ScalarDamageState, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &ScalarDamageState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

@@ -182,6 +182,7 @@ impl<M: Material> Material for Thermal<M> {
     const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
     const STEP_ERROR: f64 = M::STEP_ERROR;
     const PLANE: bool = M::PLANE;
+    const SPARSE: bool = M::SPARSE;
     const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -226,6 +227,18 @@ impl<M: Material> Material for Thermal<M> {
     fn initial(&self) -> Self::State {
         ThermalState {
             inner: self.law.initial(),
+            temperature: 0.0,
+        }
+    }
+
+    /// At a temperature other than that at rest every particle has one.
+    fn has_history(&self, state: &Self::State) -> bool {
+        state.temperature != 0.0 || self.law.has_history(&state.inner)
+    }
+
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        ThermalState {
+            inner: self.law.without_history(f),
             temperature: 0.0,
         }
     }

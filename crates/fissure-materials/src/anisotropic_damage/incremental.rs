@@ -184,6 +184,7 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
     /// On the ellipse the answer depends on the axes in the crack's plane.
     const OBJECTIVE: bool = !ELLIPSE;
     const HYPERELASTIC: bool = false;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] =
         &["opening", "opened", "sheared_1", "sheared_2", "failed"];
 
@@ -222,6 +223,10 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &IncrementalState, scale: &Scale) -> f64 {
         self.parameters
             .wave_speed(f, &AnisotropicDamageState::default(), scale)
+    }
+
+    fn has_history(&self, state: &IncrementalState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

@@ -206,6 +206,7 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
     type State = AnisotropicDamageState;
     const HYPERELASTIC: bool = false;
     const STEP_ERROR: f64 = 0.0;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "opened", "sheared", "left_over", "failed"];
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -275,6 +276,10 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
         let largest = sums.fold(0.0, f64::max) * scale.stiffness;
         let stretch = Biot::longest_stretch(f);
         (largest / self.density).sqrt() * stretch * stretch
+    }
+
+    fn has_history(&self, state: &AnisotropicDamageState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

@@ -285,6 +285,7 @@ fn turn(planes: &mut [Plane], strain: &Sym) {
 
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["planes", "failed_planes", "opening"];
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -337,6 +338,10 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     /// That of the sound material times the longest stretch.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &Self::State, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &Self::State) -> bool {
+        !state.planes().is_empty()
     }
 
     fn update(
