@@ -73,7 +73,7 @@ pub use material::Material;
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::Orthotropic;
 pub use path::{Axis, Component, Control, Entry, GradientLeg, Leg, Path, Stage, SubSteps};
-pub use plane_stress::{PlaneStress, PlaneStressState};
+pub use plane_stress::{PlaneStress, PlaneStressState, SheetStep};
 pub use point::{Event, EventKind, History, Point, PointError, Sample};
 pub use scalar_damage::{
     DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,

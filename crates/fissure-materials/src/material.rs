@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{Increment, MaterialError, Response, Scale};
+use crate::{Increment, MaterialError, Response, Scale, SheetStep};
 
 /// A constitutive law: a pure function from an increment and an old state to a new state.
 ///
@@ -148,6 +148,21 @@ pub trait Material: Send + Sync + 'static {
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
         Ok((self.update(increment, old)?, self.tangent(increment, old)?))
+    }
+
+    /// A step in plane stress, from a law that has it in closed form; `None` from the others, whose
+    /// thickness [`PlaneStress`](crate::PlaneStress) looks for. Only the in-plane components of the
+    /// deformation gradients are to be read. The tangent may be left out.
+    ///
+    /// # Errors
+    /// As `update`.
+    fn plane_stress(
+        &self,
+        _increment: &Increment,
+        _old: &Self::State,
+        _with_tangent: bool,
+    ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
+        Ok(None)
     }
 
     /// Writes one number per entry of [`NAMES`](Self::NAMES).

@@ -11,7 +11,9 @@ mod tests;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
-use self::balance::{Solved, with_thickness};
+use self::balance::Solved;
+pub(crate) use self::balance::with_thickness;
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
 use crate::{
     Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     check_parameter,
@@ -39,9 +41,24 @@ pub struct PlaneStressState<S> {
     pub thickening: f64,
 }
 
+/// What a law that has plane stress in closed form makes of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetStep<S> {
+    /// The answer; out-of-plane stresses do not count.
+    pub response: Response<S>,
+    /// Out-of-plane strain `F₃₃ − 1`; > −1.
+    pub thickening: f64,
+    /// Spatial tangent (see [`Material::tangent`]) of the in-plane components, for a `J` that goes
+    /// with the thickness. `None` if it was not asked for, or is to be taken by differences.
+    pub tangent: Option<Tangent>,
+}
+
 impl<M: Material> PlaneStress<M> {
-    fn response(solved: &Solved<M::State>) -> Response<PlaneStressState<M::State>> {
-        let mut stress = solved.response.stress;
+    fn response(
+        inner: &Response<M::State>,
+        thickening: f64,
+    ) -> Response<PlaneStressState<M::State>> {
+        let mut stress = inner.stress;
         // What is left of σ₃₃ is round-off; the out-of-plane shears are those of the plane problem.
         for i in OUT_OF_PLANE {
             stress.mandel[i] = 0.0;
@@ -49,13 +66,13 @@ impl<M: Material> PlaneStress<M> {
         Response {
             stress,
             state: PlaneStressState {
-                inner: solved.response.state,
+                inner: inner.state,
                 // What `F₃₃` can hold, so that a state follows from it (`without_history`); the law
                 // inside has seen no more.
-                thickening: (1.0 + solved.thickening) - 1.0,
+                thickening: (1.0 + thickening) - 1.0,
             },
-            stored: solved.response.stored,
-            dissipated: solved.response.dissipated,
+            stored: inner.stored,
+            dissipated: inner.dissipated,
         }
     }
 
@@ -112,7 +129,11 @@ impl<M: Material> PlaneStress<M> {
 /// The in-plane response at `σ₃₃ = 0`; rows and columns out of the plane are zero.
 fn condensed(tangent: &Tangent) -> Result<Tangent, MaterialError> {
     let c = tangent.0;
-    let mut plane = c - c.column(2) * c.row(2) / c[(2, 2)];
+    flattened(Tangent(c - c.column(2) * c.row(2) / c[(2, 2)]))
+}
+
+/// Without the rows and columns out of the plane.
+fn flattened(Tangent(mut plane): Tangent) -> Result<Tangent, MaterialError> {
     for i in OUT_OF_PLANE {
         plane.row_mut(i).fill(0.0);
         plane.column_mut(i).fill(0.0);
@@ -207,7 +228,11 @@ impl<M: Material> Material for PlaneStress<M> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<Response<Self::State>, MaterialError> {
-        Ok(Self::response(&self.checked(increment, old)?))
+        if let Some(step) = self.0.plane_stress(increment, &old.inner, false)? {
+            return Ok(Self::response(&step.response, step.thickening));
+        }
+        let solved = self.checked(increment, old)?;
+        Ok(Self::response(&solved.response, solved.thickening))
     }
 
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
@@ -219,9 +244,17 @@ impl<M: Material> Material for PlaneStress<M> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
+        if let Some(step) = self.0.plane_stress(increment, &old.inner, true)? {
+            let tangent = match step.tangent {
+                Some(tangent) => flattened(tangent)?,
+                None => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
+            };
+            return Ok((Self::response(&step.response, step.thickening), tangent));
+        }
         let solved = self.checked(increment, old)?;
         let tangent = condensed(&self.0.tangent(&solved.increment, &old.inner)?)?;
-        Ok((Self::response(&solved), tangent))
+        let response = Self::response(&solved.response, solved.thickening);
+        Ok((response, tangent))
     }
 
     fn values(&self, state: &Self::State, out: &mut [f64]) {
@@ -255,7 +288,7 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
     }
 
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        self.0.failure_along(stress, normal, scale)
+        self.0.failure_in_plane(stress, normal, scale)
     }
 
     fn associated(&self) -> bool {
@@ -263,7 +296,7 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.0.initiation(stress, scale)
+        self.0.initiation_in_plane(stress, scale)
     }
 
     fn cracks(&self, state: &Self::State) -> Vec<Crack> {

@@ -27,7 +27,7 @@ use super::{circle, ellipse};
 use crate::softening::Linear;
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
-    Softening, check_parameter,
+    SheetStep, Softening, check_parameter,
 };
 
 const NAME: &str = "incremental anisotropic damage";
@@ -113,8 +113,8 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         Self { parameters }
     }
 
-    fn modes(&self, width: f64, scale: &Scale) -> Modes<'_, N, T> {
-        let elastic = self.parameters.elastic.scaled(scale);
+    fn modes<const SHEET: bool>(&self, width: f64, scale: &Scale) -> Modes<'_, N, T> {
+        let elastic = self.parameters.elastic_at::<SHEET>(scale);
         Modes {
             opening: self
                 .parameters
@@ -128,14 +128,14 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
     }
 
     /// A new crack, if the stress asks for one.
-    fn started(
+    fn started<const SHEET: bool>(
         &self,
         stress: &Sym,
         kinematics: &Biot,
         band: &Band,
         scale: &Scale,
     ) -> Result<Option<IncrementalState>, MaterialError> {
-        let surface = self.parameters.surface(scale);
+        let surface = self.parameters.surface::<SHEET>(scale);
         if surface.is_surely_below(stress) {
             return Ok(None);
         }
@@ -145,7 +145,7 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         }
         let normal = initiation.normal;
         let width = band.width(&(kinematics.rotation * normal));
-        self.parameters.check_width(width, scale)?;
+        self.parameters.check_width::<SHEET>(width, scale)?;
         // Along the shear if there is one, else along a principal direction.
         let traction = stress.traction(&normal);
         let shear = traction - normal * normal.dot(&traction);
@@ -174,6 +174,88 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         let to = end.strain() - heat;
         let from = Biot::new(&increment.f_old).map_or(to, |start| start.strain() - heat);
         (from, to)
+    }
+
+    fn updated<const SHEET: bool>(
+        &self,
+        increment: &Increment,
+        old: &IncrementalState,
+    ) -> Result<Response<IncrementalState>, MaterialError> {
+        let scale = &increment.external.scale;
+        let elastic = self.parameters.elastic_at::<SHEET>(scale);
+        let kinematics = Biot::new(&increment.f_new)?;
+        let (from, to) = self.strains(increment, &kinematics);
+        let undamaged = elastic.stress(&to);
+        let mut state = *old;
+        if state.width == 0.0 {
+            match self.started::<SHEET>(&undamaged, &kinematics, &increment.band, scale)? {
+                Some(started) => state = started,
+                None => {
+                    return Ok(Response {
+                        stress: kinematics.turned(&undamaged),
+                        state,
+                        stored: 0.5 * undamaged.dot(&to),
+                        dissipated: 0.0,
+                    });
+                }
+            }
+        }
+        let modes = self.modes::<SHEET>(state.width, scale);
+        let before = modes.spent(&state);
+        let [normal, first, second] = state.frame();
+        let [start, end] = [from, to].map(|strain| Demand::new(&elastic, &normal, &strain));
+        let [old_shear, shear] = [start, end].map(|d| [d.shear.dot(&first), d.shear.dot(&second)]);
+        let mut released = 0.0;
+        if !state.failed {
+            if let Some(opened) = modes.opening.soften(end.normal, state.opened) {
+                state.opened = opened;
+            }
+            let moved = if ELLIPSE {
+                ellipse::moved
+            } else {
+                circle::moved
+            };
+            let sheared = moved(
+                &modes.shear,
+                &Sheared {
+                    softened: state.sheared,
+                    traction: [0, 1].map(|i| old_shear[i] - state.shear_strain[i]),
+                },
+                [0, 1].map(|i| shear[i] - old_shear[i]),
+            );
+            state.sheared = sheared.softened;
+            // Kept to the last bit by a zero increment.
+            if shear != old_shear || state.width != old.width {
+                state.shear_strain = [0, 1].map(|i| shear[i] - sheared.traction[i]);
+            }
+            if modes.criterion(&state, &self.parameters.mixed) >= 1.0 {
+                let open = end.normal.max(0.0);
+                let opening = modes.opening.integrity(state.opened) * modes.opening.modulus;
+                released = 0.5 * opening * open * open
+                    + stored_in_shear(&modes.shear, &state, &sheared.traction, ELLIPSE);
+                state.failed = true;
+            }
+        }
+        let mut integrity = modes.opening.integrity(state.opened);
+        if state.failed {
+            integrity = 0.0;
+            state.shear_strain = shear;
+        }
+        let normal_strain = (1.0 - integrity) * end.normal.max(0.0);
+        state.opening = normal_strain * state.width;
+        let sliding = first * state.shear_strain[0] + second * state.shear_strain[1];
+        let crack = Sym::dyad(&normal) * normal_strain + Sym::dyad_of(&normal, &sliding);
+        let biot_stress = undamaged - elastic.stress(&crack);
+        let traction = [0, 1].map(|i| shear[i] - state.shear_strain[i]);
+        // Without the crack's shear, and then what the secant shear holds.
+        let rest = 0.5 * biot_stress.dot(&(to - Sym::dyad_of(&normal, &end.shear)));
+        let stored = rest + stored_in_shear(&modes.shear, &state, &traction, ELLIPSE);
+        Ok(Response {
+            stress: kinematics.turned(&biot_stress),
+            state,
+            stored,
+            dissipated: (modes.spent(&state) - before + released).max(0.0),
+        })
     }
 }
 
@@ -234,81 +316,25 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
         increment: &Increment,
         old: &IncrementalState,
     ) -> Result<Response<IncrementalState>, MaterialError> {
-        let scale = &increment.external.scale;
-        let elastic = self.parameters.elastic.scaled(scale);
-        let kinematics = Biot::new(&increment.f_new)?;
-        let (from, to) = self.strains(increment, &kinematics);
-        let undamaged = elastic.stress(&to);
-        let mut state = *old;
-        if state.width == 0.0 {
-            match self.started(&undamaged, &kinematics, &increment.band, scale)? {
-                Some(started) => state = started,
-                None => {
-                    return Ok(Response {
-                        stress: kinematics.turned(&undamaged),
-                        state,
-                        stored: 0.5 * undamaged.dot(&to),
-                        dissipated: 0.0,
-                    });
-                }
-            }
-        }
-        let modes = self.modes(state.width, scale);
-        let before = modes.spent(&state);
-        let [normal, first, second] = state.frame();
-        let [start, end] = [from, to].map(|strain| Demand::new(&elastic, &normal, &strain));
-        let [old_shear, shear] = [start, end].map(|d| [d.shear.dot(&first), d.shear.dot(&second)]);
-        let mut released = 0.0;
-        if !state.failed {
-            if let Some(opened) = modes.opening.soften(end.normal, state.opened) {
-                state.opened = opened;
-            }
-            let moved = if ELLIPSE {
-                ellipse::moved
-            } else {
-                circle::moved
-            };
-            let sheared = moved(
-                &modes.shear,
-                &Sheared {
-                    softened: state.sheared,
-                    traction: [0, 1].map(|i| old_shear[i] - state.shear_strain[i]),
-                },
-                [0, 1].map(|i| shear[i] - old_shear[i]),
-            );
-            state.sheared = sheared.softened;
-            // Kept to the last bit by a zero increment.
-            if shear != old_shear || state.width != old.width {
-                state.shear_strain = [0, 1].map(|i| shear[i] - sheared.traction[i]);
-            }
-            if modes.criterion(&state, &self.parameters.mixed) >= 1.0 {
-                let open = end.normal.max(0.0);
-                let opening = modes.opening.integrity(state.opened) * modes.opening.modulus;
-                released = 0.5 * opening * open * open
-                    + stored_in_shear(&modes.shear, &state, &sheared.traction, ELLIPSE);
-                state.failed = true;
-            }
-        }
-        let mut integrity = modes.opening.integrity(state.opened);
-        if state.failed {
-            integrity = 0.0;
-            state.shear_strain = shear;
-        }
-        let normal_strain = (1.0 - integrity) * end.normal.max(0.0);
-        state.opening = normal_strain * state.width;
-        let sliding = first * state.shear_strain[0] + second * state.shear_strain[1];
-        let crack = Sym::dyad(&normal) * normal_strain + Sym::dyad_of(&normal, &sliding);
-        let biot_stress = undamaged - elastic.stress(&crack);
-        let traction = [0, 1].map(|i| shear[i] - state.shear_strain[i]);
-        // Without the crack's shear, and then what the secant shear holds.
-        let rest = 0.5 * biot_stress.dot(&(to - Sym::dyad_of(&normal, &end.shear)));
-        let stored = rest + stored_in_shear(&modes.shear, &state, &traction, ELLIPSE);
-        Ok(Response {
-            stress: kinematics.turned(&biot_stress),
-            state,
-            stored,
-            dissipated: (modes.spent(&state) - before + released).max(0.0),
-        })
+        self.updated::<false>(increment, old)
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &IncrementalState,
+        _with_tangent: bool,
+    ) -> Result<Option<SheetStep<IncrementalState>>, MaterialError> {
+        let Some(flat) = self.parameters.flattened(increment) else {
+            return Ok(None);
+        };
+        let response = self.updated::<true>(&flat, old)?;
+        let thickening = self.parameters.thickening(&flat, &response.stress)?;
+        Ok(Some(SheetStep {
+            response,
+            thickening,
+            tangent: None,
+        }))
     }
 
     fn values(&self, state: &IncrementalState, out: &mut [f64]) {
@@ -378,11 +404,19 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Cracking
         self.parameters.initiation(stress, scale)
     }
 
+    fn failure_in_plane(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.parameters.failure_in_plane(stress, normal, scale)
+    }
+
+    fn initiation_in_plane(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        self.parameters.initiation_in_plane(stress, scale)
+    }
+
     fn cracks(&self, state: &IncrementalState) -> Vec<Crack> {
         if state.width == 0.0 {
             return Vec::new();
         }
-        let modes = self.modes(state.width, &Scale::default());
+        let modes = self.modes::<false>(state.width, &Scale::default());
         let [first, second] = state.sheared.map(|s| modes.shear.dissipated_fraction(s));
         let fraction = modes.opening.dissipated_fraction(state.opened) + first + second;
         vec![Crack {

@@ -130,7 +130,7 @@ impl<M: Material> PlaneStress<M> {
 }
 
 /// The in-plane part of a deformation gradient, and `F₃₃ = 1 + thickening`.
-pub(super) fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
+pub(crate) fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
     Matrix3::new(
         f.m11,
         f.m12,
