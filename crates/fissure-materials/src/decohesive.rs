@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
+    error::{check_below, check_scaled_toughness},
     softening::{Linear, opening},
     sound::{below, sound},
     turning::Turning,
@@ -162,15 +163,8 @@ impl<S: Softening> Point<'_, S> {
     }
 
     fn check_width(&self, width: f64) -> Result<(), MaterialError> {
-        let limit = self.band_limit();
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_scaled_toughness(NAME, self.toughness)?;
+        check_below(NAME, width, self.band_limit())
     }
 
     /// Moves the opening for the normal traction `uncracked` that the strain would give without

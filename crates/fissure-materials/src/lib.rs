@@ -51,6 +51,7 @@ mod testing;
 mod thermal;
 mod turning;
 mod viscous_damage;
+mod wrapping;
 
 pub use anisotropic_damage::{
     AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,

@@ -43,6 +43,9 @@ pub trait Material: Send + Sync + 'static {
     /// checks hold the law to it. 0 for a law that such a division does not change.
     const STEP_ERROR: f64 = 1.0;
 
+    /// The same in plane stress, where the thickness turns a straight strain from its direction.
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = Self::STEP_ERROR;
+
     /// Whether the law determines its out-of-plane components itself, as in plane stress: it reads
     /// only the in-plane components of `F`, states the rest in
     /// [`out_of_plane_stretch`](Self::out_of_plane_stretch), and its tangent has none. The contract
@@ -136,6 +139,12 @@ pub trait Material: Send + Sync + 'static {
     /// As `update`.
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
         difference_tangent(self, increment, old, DIFFERENCE_STEP)
+    }
+
+    /// Whether the tangent of a step between these states is more than the default differences.
+    /// [`PlaneStress`](crate::PlaneStress) does not condense those: it takes its own.
+    fn has_own_tangent(&self, _old: &Self::State, _new: &Self::State) -> bool {
+        true
     }
 
     /// Both at once, for laws that share work between them.

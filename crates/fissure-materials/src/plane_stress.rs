@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use self::balance::Solved;
 pub(crate) use self::balance::with_thickness;
 use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::wrapping::{hand_on_cracking, hand_on_material};
 use crate::{
     Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     check_parameter,
@@ -156,13 +157,10 @@ fn widened(band: &Band, factor: f64) -> Band {
 
 impl<M: Material> Material for PlaneStress<M> {
     type State = PlaneStressState<M::State>;
-    const OBJECTIVE: bool = M::OBJECTIVE;
-    const HYPERELASTIC: bool = M::HYPERELASTIC;
-    const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
-    const STEP_ERROR: f64 = M::STEP_ERROR;
+    hand_on_material!(0);
+
+    const STEP_ERROR: f64 = M::STEP_ERROR_IN_PLANE_STRESS;
     const PLANE: bool = true;
-    const SPARSE: bool = M::SPARSE;
-    const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.0.check()?;
@@ -181,20 +179,8 @@ impl<M: Material> Material for PlaneStress<M> {
         self.check_relieved(band, scale)
     }
 
-    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
-        self.0.started_width(&old.inner, &new.inner)
-    }
-
     fn isotropic(&self) -> bool {
         self.0.isotropic()
-    }
-
-    fn continuous(&self) -> bool {
-        self.0.continuous()
-    }
-
-    fn density(&self) -> f64 {
-        self.0.density()
     }
 
     /// That of the law inside at the stretch of the state: an upper bound, since the freedom of
@@ -252,13 +238,14 @@ impl<M: Material> Material for PlaneStress<M> {
             return Ok((Self::response(&step.response, step.thickening), tangent));
         }
         let solved = self.checked(increment, old)?;
-        let tangent = condensed(&self.0.tangent(&solved.increment, &old.inner)?)?;
+        let inner = &solved.response.state;
+        let tangent = if self.0.has_own_tangent(&old.inner, inner) {
+            condensed(&self.0.tangent(&solved.increment, &old.inner)?)?
+        } else {
+            difference_tangent(self, increment, old, DIFFERENCE_STEP)?
+        };
         let response = Self::response(&solved.response, solved.thickening);
         Ok((response, tangent))
-    }
-
-    fn values(&self, state: &Self::State, out: &mut [f64]) {
-        self.0.values(&state.inner, out);
     }
 
     fn out_of_plane_stretch(&self, state: &Self::State) -> Option<f64> {
@@ -267,13 +254,7 @@ impl<M: Material> Material for PlaneStress<M> {
 }
 
 impl<M: Cracking> Cracking for PlaneStress<M> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.0.toughness(scale)
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.0.strength(scale)
-    }
+    hand_on_cracking!(0);
 
     fn critical_opening(&self, scale: &Scale) -> f64 {
         self.0.critical_opening(scale)
@@ -283,16 +264,8 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
         self.0.band_limit(scale) * self.relief(scale)
     }
 
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        self.0.driving_stress(f, cauchy)
-    }
-
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
         self.0.failure_in_plane(stress, normal, scale)
-    }
-
-    fn associated(&self) -> bool {
-        self.0.associated()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
@@ -301,9 +274,5 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
 
     fn cracks(&self, state: &Self::State) -> Vec<Crack> {
         self.0.cracks(&state.inner)
-    }
-
-    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
-        self.0.irreversible(&state.inner)
     }
 }

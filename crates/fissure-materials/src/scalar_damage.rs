@@ -33,7 +33,9 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale, turning::Turning,
+    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale,
+    error::{check_below, check_scaled_toughness},
+    turning::Turning,
 };
 
 pub use mazars::{MazarsDamage, MazarsSoftening};
@@ -153,15 +155,9 @@ impl<E: DamageEvolution> ScalarDamage<E> {
     }
 
     fn check_width(&self, width: f64, scale: &Scale) -> Result<(), MaterialError> {
-        let limit = self.band_limit(scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: E::NAME,
-            width,
-            limit,
-        })
+        // Infinite for an evolution without a toughness, with which the scale has nothing to do.
+        check_scaled_toughness(E::NAME, scale.toughness)?;
+        check_below(E::NAME, width, self.band_limit(scale))
     }
 
     fn step(

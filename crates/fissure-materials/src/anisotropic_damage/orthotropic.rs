@@ -30,6 +30,7 @@ use self::plane::PlaneAt;
 use super::crack::{AnisotropicDamageState, CrackAt, MixedMode, Moved};
 use super::mode::Mode;
 use super::tangent::width_rate;
+use crate::error::{check_below, check_scaled_toughness};
 use crate::softening::Linear;
 use crate::{
     Biot, Increment, Initiation, Material, MaterialError, Response, Scale, SheetStep, Softening,
@@ -137,15 +138,11 @@ impl<const P: usize, N: Softening, T: Softening> OrthotropicDamage<P, N, T> {
     }
 
     fn check_width(&self, index: usize, width: f64, scale: &Scale) -> Result<(), MaterialError> {
-        let limit = self.limit(index, scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
+        let plane = &self.planes[index];
+        for mode in [plane.opening.toughness, plane.shear.toughness] {
+            check_scaled_toughness(NAME, mode * scale.toughness)?;
         }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_below(NAME, width, self.limit(index, scale))
     }
 
     fn step(

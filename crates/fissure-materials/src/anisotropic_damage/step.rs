@@ -6,6 +6,7 @@ use super::crack::{CrackAt, Demand, Moved};
 use super::elasticity::Elastic;
 use super::tangent::{self, Start};
 use super::{AnisotropicDamage, AnisotropicDamageState, NAME};
+use crate::error::{check_below, check_scaled_toughness};
 use crate::rotated::left_strain;
 use crate::tension_shear::TensionShear;
 use crate::{Biot, Increment, MaterialError, Onset, Response, Scale, Softening};
@@ -68,15 +69,10 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         width: f64,
         scale: &Scale,
     ) -> Result<(), MaterialError> {
-        let limit = self.limit::<SHEET>(scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
+        for mode in [self.opening.toughness, self.shear.toughness] {
+            check_scaled_toughness(NAME, mode * scale.toughness)?;
         }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_below(NAME, width, self.limit::<SHEET>(scale))
     }
 
     /// `U − 1 − αΔT 1`, or `V − 1 − αΔT 1` from `V − 1`.
