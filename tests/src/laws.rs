@@ -60,3 +60,48 @@ impl Material for Refusing {
         out[0] = *state;
     }
 }
+
+/// A law whose states are all kept, whether they have a history or not.
+#[derive(Clone, Copy, Debug)]
+pub struct Dense<M>(pub M);
+
+impl<M: Material> Material for Dense<M> {
+    type State = M::State;
+    const NAMES: &'static [&'static str] = M::NAMES;
+
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        self.0.check_band(band, scale)
+    }
+
+    fn started_width(&self, old: &M::State, new: &M::State) -> f64 {
+        self.0.started_width(old, new)
+    }
+
+    fn density(&self) -> f64 {
+        self.0.density()
+    }
+
+    fn wave_speed(&self, f: &Tensor<f64>, state: &M::State, scale: &Scale) -> f64 {
+        self.0.wave_speed(f, state, scale)
+    }
+
+    fn initial(&self) -> M::State {
+        self.0.initial()
+    }
+
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &M::State,
+    ) -> Result<Response<M::State>, MaterialError> {
+        self.0.update(increment, old)
+    }
+
+    fn tangent(&self, increment: &Increment, old: &M::State) -> Result<Tangent, MaterialError> {
+        self.0.tangent(increment, old)
+    }
+
+    fn values(&self, state: &M::State, out: &mut [f64]) {
+        self.0.values(state, out);
+    }
+}

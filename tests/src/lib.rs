@@ -10,7 +10,7 @@ mod measure;
 mod space;
 
 pub use case::{Case, ShapeKind, Space, cases};
-pub use laws::{Refusing, rubber};
+pub use laws::{Dense, Refusing, rubber};
 pub use measure::{
     Order, bits, compensated, largest_difference, momentum, momentum_scale, observed_orders,
 };

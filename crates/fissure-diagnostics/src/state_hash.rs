@@ -39,7 +39,7 @@ pub fn state_hash<const D: usize>(scene: &Scene<D>) -> u64 {
 fn hash_body<const D: usize>(hash: &mut Fnv, body: &Body<D>) {
     let (particles, motion) = (body.particles(), &body.particles().motion);
     let values: Vec<Vec<f64>> = (0..body.law().names().len())
-        .map(|value| body.law().values(value))
+        .map(|value| body.law().values(value, &motion.deformation_gradient))
         .collect();
     let mut order: Vec<usize> = (0..particles.len()).collect();
     order.sort_unstable_by_key(|&i| particles.id[i]);

@@ -78,6 +78,7 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
     let start = Instant::now();
     let fuzzed = law.fuzz(updates, seed);
     let wall_s = start.elapsed().as_secs_f64();
+    let [undamaged, cracked] = law.bytes();
     let row = Row::other("laws")
         .field("law", chosen.name())
         .field("updates", fuzzed.updates)
@@ -95,8 +96,8 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
         )
         .field("tangent_error_max", fuzzed.tangent_error)
         .field("ratio_to_elastic", speed.undamaged)
-        .field("bytes_undamaged", law.bytes())
-        .field("bytes_cracked", law.bytes())
+        .field("bytes_undamaged", undamaged)
+        .field("bytes_cracked", cracked)
         .field("ratio_damaging", speed.damaging)
         .field("sound", fuzzed.sound)
         .field("typed_errors_elsewhere", fuzzed.typed_errors_elsewhere)

@@ -33,16 +33,19 @@
 mod circle;
 mod crack;
 mod cracking;
+mod elasticity;
 mod ellipse;
 mod incremental;
 mod mode;
 mod orthotropic;
+mod sheet;
+mod step;
 mod tangent;
 mod tensors;
 #[cfg(test)]
 mod tests;
 
-use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
+use fissure_tensor::{Matrix3, Tangent};
 
 pub use self::crack::{AnisotropicDamageState, MixedMode};
 pub use self::incremental::{
@@ -51,14 +54,10 @@ pub use self::incremental::{
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
 
-use self::crack::{CrackAt, Demand, Moved};
-use self::tangent::Start;
-use crate::rotated::left_strain;
 use crate::softening::Linear;
-use crate::tension_shear::TensionShear;
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Onset, Response, Scale, Softening,
-    check_parameter,
+    Biot, Increment, Isotropic, Material, MaterialError, Onset, Response, Scale, SheetStep,
+    Softening, check_parameter,
 };
 
 const NAME: &str = "anisotropic damage";
@@ -92,16 +91,6 @@ pub struct AnisotropicDamage<N = Linear, T = Linear> {
     pub thermal_expansion: f64,
 }
 
-/// What a step came to.
-struct Step {
-    strain: Sym,
-    biot_stress: Sym,
-    crack: Option<(Moved, Started)>,
-}
-
-/// Components of a new crack's normal on the eigenvectors of the strain; `None` for an older crack.
-type Started = Option<[f64; 3]>;
-
 impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
     /// Cracks on any plane, (34) with exponents 1, no friction, no thermal expansion.
     pub fn new(elastic: Isotropic, opening: Mode<N>, shear: Mode<T>) -> Self {
@@ -116,80 +105,6 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
     }
 
-    #[inline]
-    fn surface(&self, scale: &Scale) -> TensionShear {
-        TensionShear {
-            onset: self.onset,
-            tensile: self.opening.strength * scale.strength,
-            shear: self.shear.strength * scale.strength,
-        }
-    }
-
-    fn crack_at(&self, scale: &Scale, state: &AnisotropicDamageState) -> CrackAt<'_, N, T> {
-        let elastic = self.elastic.scaled(scale);
-        CrackAt {
-            opening: self
-                .opening
-                .at(elastic.p_wave_modulus(), state.width, scale),
-            shear: self.shear.at(elastic.shear_modulus(), state.width, scale),
-            mixed: self.mixed,
-            friction: self.friction,
-            normal: Vector3::from(state.normal),
-        }
-    }
-
-    /// Largest bands of the two modes.
-    fn limit(&self, scale: &Scale) -> f64 {
-        let elastic = self.elastic.scaled(scale);
-        let opening = self.opening.at(elastic.p_wave_modulus(), 1.0, scale);
-        let shear = self.shear.at(elastic.shear_modulus(), 1.0, scale);
-        opening.band_limit().min(shear.band_limit())
-    }
-
-    fn check_width(&self, width: f64, scale: &Scale) -> Result<(), MaterialError> {
-        let limit = self.limit(scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
-    }
-
-    /// `U − 1 − αΔT 1`, or `V − 1 − αΔT 1` from `V − 1`.
-    #[inline]
-    fn mechanical(&self, strain: Sym, increment: &Increment) -> Sym {
-        if self.thermal_expansion == 0.0 {
-            return strain;
-        }
-        strain - Sym::IDENTITY * (self.thermal_expansion * increment.external.temperature)
-    }
-
-    /// The whole answer while no crack is near, from the left stretch: no spectrum, no rotation.
-    #[inline]
-    fn sound(
-        &self,
-        increment: &Increment,
-        old: &AnisotropicDamageState,
-    ) -> Option<Response<AnisotropicDamageState>> {
-        if old.width != 0.0 {
-            return None;
-        }
-        let strain = self.mechanical(left_strain(&increment.f_new)?, increment);
-        let scale = &increment.external.scale;
-        let stress = self.elastic.scaled(scale).stress(&strain);
-        self.surface(scale)
-            .is_surely_below(&stress)
-            .then(|| Response {
-                stress,
-                state: *old,
-                stored: 0.5 * stress.dot(&strain),
-                dissipated: 0.0,
-            })
-    }
-
     /// The update with everything. Out of line: the way through `sound` is not to pay for it.
     #[inline(never)]
     fn full_update(
@@ -198,119 +113,16 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         old: &AnisotropicDamageState,
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&kinematics, increment, old)?;
+        let step = self.step::<false>(&kinematics, increment, old)?;
         Ok(self.response(&kinematics, &step, old))
     }
-
-    fn step(
-        &self,
-        kinematics: &Biot,
-        increment: &Increment,
-        old: &AnisotropicDamageState,
-    ) -> Result<Step, MaterialError> {
-        let scale = &increment.external.scale;
-        let elastic = self.elastic.scaled(scale);
-        let strain = self.mechanical(kinematics.strain(), increment);
-        let undamaged = elastic.stress(&strain);
-        let mut state = *old;
-        let mut started = None;
-        if state.width == 0.0 {
-            let surface = self.surface(scale);
-            let asked = if surface.is_surely_below(&undamaged) {
-                None
-            } else {
-                Some(surface.asked(&undamaged)).filter(|asked| asked.initiation.value > 0.0)
-            };
-            let Some(asked) = asked else {
-                return Ok(Step {
-                    strain,
-                    biot_stress: undamaged,
-                    crack: None,
-                });
-            };
-            let normal = asked.initiation.normal;
-            state.normal = normal.into();
-            state.width = increment.band.width(&(kinematics.rotation * normal));
-            // The door saw neither this rotation nor, for a band with an edge of zero, this normal.
-            self.check_width(state.width, scale)?;
-            started = Some(asked.weights);
-        }
-        let crack = self.crack_at(scale, &state);
-        let demand = Demand::new(&elastic, &crack.normal, &strain);
-        let moved = crack.moved(&state, &demand, || {
-            // The step starts where the last one ended: `f_old` was taken then.
-            let strain = Biot::new(&increment.f_old).map_or(strain, |old| old.strain());
-            let strain = self.mechanical(strain, increment);
-            Demand::new(&elastic, &crack.normal, &strain)
-        });
-        let crack_strain = crack_strain(&crack.normal, &moved);
-        Ok(Step {
-            strain,
-            biot_stress: undamaged - elastic.stress(&crack_strain),
-            crack: Some((moved, started)),
-        })
-    }
-
-    fn response(
-        &self,
-        kinematics: &Biot,
-        step: &Step,
-        old: &AnisotropicDamageState,
-    ) -> Response<AnisotropicDamageState> {
-        // Unloading goes to the origin, so that all strain is recovered but what friction holds.
-        let (mut recoverable, mut dissipated, mut state) = (step.strain, 0.0, *old);
-        if let Some((moved, _)) = &step.crack {
-            state = moved.state;
-            dissipated = moved.dissipated;
-            recoverable -= Sym::dyad_of(&state.normal.into(), &moved.slipped);
-        }
-        Response {
-            stress: kinematics.turned(&step.biot_stress),
-            state,
-            stored: 0.5 * step.biot_stress.dot(&recoverable),
-            dissipated,
-        }
-    }
-
-    fn step_tangent(&self, kinematics: &Biot, step: &Step, increment: &Increment) -> Tangent {
-        let elastic = self.elastic.scaled(&increment.external.scale);
-        let fixed = |modulus: &Tangent| {
-            kinematics.turned_tangent(&step.biot_stress, |strain_rate, _| {
-                modulus.apply(strain_rate)
-            })
-        };
-        let Some((moved, started)) = &step.crack else {
-            return fixed(&elastic.stiffness());
-        };
-        let normal = Vector3::from(moved.state.normal);
-        let modulus = tangent::modulus(&elastic, &normal, &moved.slopes);
-        let Some(weights) = started else {
-            return fixed(&modulus);
-        };
-        Start {
-            elastic: &elastic,
-            kinematics,
-            strain: &step.strain,
-            band: &increment.band,
-            moved,
-            normal,
-            weights: *weights,
-            in_plane: self.onset == Onset::InPlane,
-            width: moved.state.width,
-        }
-        .tangent(&step.biot_stress, &modulus)
-    }
-}
-
-/// `ε_c n⊗n + sym(n⊗γ_c)`.
-fn crack_strain(normal: &Vector3<f64>, moved: &Moved) -> Sym {
-    Sym::dyad(normal) * moved.normal_strain + Sym::dyad_of(normal, &moved.shear_strain)
 }
 
 impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
     type State = AnisotropicDamageState;
     /// `σ = R·T·Rᵀ` leaves out factors of stretch.
     const HYPERELASTIC: bool = false;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &[
         "opening",
         "normal_damage",
@@ -351,7 +163,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
             Onset::Prescribed(normal) => band.width(&normal.normalize()),
             _ => band.max_width(),
         };
-        self.check_width(width, scale)
+        self.check_width::<false>(width, scale)
     }
 
     fn started_width(&self, old: &AnisotropicDamageState, new: &AnisotropicDamageState) -> f64 {
@@ -381,16 +193,29 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         self.elastic.scaled(scale).p_wave_speed() * stretch * stretch
     }
 
+    fn has_history(&self, state: &AnisotropicDamageState) -> bool {
+        state.width != 0.0
+    }
+
     #[inline]
     fn update(
         &self,
         increment: &Increment,
         old: &AnisotropicDamageState,
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
-        match self.sound(increment, old) {
+        match self.sound::<false>(increment, old) {
             Some(response) => Ok(response),
             None => self.full_update(increment, old),
         }
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<AnisotropicDamageState>>, MaterialError> {
+        self.in_sheet(increment, old, with_tangent)
     }
 
     fn tangent(
@@ -407,12 +232,15 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         old: &AnisotropicDamageState,
     ) -> Result<(Response<AnisotropicDamageState>, Tangent), MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&kinematics, increment, old)?;
-        let response = match self.sound(increment, old) {
+        let step = self.step::<false>(&kinematics, increment, old)?;
+        let response = match self.sound::<false>(increment, old) {
             Some(response) => response,
             None => self.response(&kinematics, &step, old),
         };
-        Ok((response, self.step_tangent(&kinematics, &step, increment)))
+        Ok((
+            response,
+            self.step_tangent::<false>(&kinematics, &step, increment),
+        ))
     }
 
     fn values(&self, state: &AnisotropicDamageState, out: &mut [f64]) {
@@ -420,7 +248,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         if state.width == 0.0 {
             return;
         }
-        let crack = self.crack_at(&Scale::default(), state);
+        let crack = self.crack_at::<false>(&Scale::default(), state);
         let (opening, shear) = crack.integrities(state);
         out[0] = state.opening;
         out[1] = 1.0 - opening;

@@ -72,6 +72,17 @@ pub trait Cracking: Material {
     /// The failure function maximised over the directions the law considers.
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation;
 
+    /// [`failure_along`](Self::failure_along) in plane stress, where a law may leave out planes that
+    /// lean out of the plane.
+    fn failure_in_plane(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.failure_along(stress, normal, scale)
+    }
+
+    /// [`initiation`](Self::initiation) in plane stress.
+    fn initiation_in_plane(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        self.initiation(stress, scale)
+    }
+
     /// The cracks of a state, in storage order.
     fn cracks(&self, state: &Self::State) -> Vec<Crack>;
 

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, Softening, check_parameter,
+    error::{check_below, check_scaled_toughness},
     softening::{Linear, opening},
     sound::{below, sound},
     turning::Turning,
@@ -162,15 +163,8 @@ impl<S: Softening> Point<'_, S> {
     }
 
     fn check_width(&self, width: f64) -> Result<(), MaterialError> {
-        let limit = self.band_limit();
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_scaled_toughness(NAME, self.toughness)?;
+        check_below(NAME, width, self.band_limit())
     }
 
     /// Moves the opening for the normal traction `uncracked` that the strain would give without
@@ -209,6 +203,7 @@ impl<S: Softening> Point<'_, S> {
 
 impl<S: Softening> Material for Decohesive<S> {
     type State = DecohesiveState;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "softened", "failed"];
     const STEP_ERROR: f64 = 0.0;
 
@@ -255,6 +250,10 @@ impl<S: Softening> Material for Decohesive<S> {
     /// reaches in the current configuration, along or across an open crack.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &DecohesiveState, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &DecohesiveState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

@@ -73,3 +73,21 @@ pub fn check_parameter(
         })
     }
 }
+
+/// Refuses a toughness that its scale has made infinite or nothing. Asked where a band is judged: an
+/// infinite toughness has no limit of it, and no crack.
+pub(crate) fn check_scaled_toughness(
+    law: &'static str,
+    toughness: f64,
+) -> Result<(), MaterialError> {
+    let name = "toughness times its scale";
+    check_parameter(law, name, toughness, toughness > 0.0, "finite and > 0")
+}
+
+/// Refuses a band that is zero or not below its limit.
+pub(crate) fn check_below(law: &'static str, width: f64, limit: f64) -> Result<(), MaterialError> {
+    if width > 0.0 && width < limit {
+        return Ok(());
+    }
+    Err(MaterialError::Band { law, width, limit })
+}

@@ -1,5 +1,7 @@
 //! What hyperelastic laws on the left Cauchy-Green tensor need, without cancellation near rest.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use fissure_tensor::{Matrix3, Sym};
 
 use crate::MaterialError;
@@ -45,6 +47,34 @@ impl LeftStrain {
         })
     }
 
+    /// `V − 1 = √b − 1`; `None` where `|b − 1|` is over 0.1.
+    ///
+    /// The binomial series of the root of `1 + A`, `A = b − 1`, by Horner's rule with the powers of
+    /// `A` reduced by Cayley and Hamilton, is cut off where the terms are below round-off.
+    #[inline]
+    pub fn root(&self) -> Option<Sym> {
+        let a = &self.excess;
+        let squared = a.dot(a);
+        let terms = if squared <= 1e-6 {
+            6
+        } else if squared <= 1e-4 {
+            9
+        } else if squared <= 1e-2 {
+            16
+        } else {
+            return None;
+        };
+        let first = a.trace();
+        let second = 0.5 * (first * first - squared);
+        let third = a.determinant();
+        let (mut p, mut q, mut r) = (ROOT[terms - 1], 0.0, 0.0);
+        for c in ROOT[..terms - 1].iter().rev() {
+            (p, q, r) = (c + third * r, p - second * r, q + first * r);
+        }
+        let powers = *a * (p - second * r) + product(a, a) * (q + first * r);
+        Some(Sym::IDENTITY * (third * r) + powers)
+    }
+
     /// `J`.
     #[inline(always)]
     pub fn jacobian(&self) -> f64 {
@@ -55,6 +85,43 @@ impl LeftStrain {
     #[inline(always)]
     pub fn log_jacobian(&self) -> f64 {
         self.dilation.ln_1p()
+    }
+}
+
+/// `√(1 + x) − 1 = Σ c_k x^k`, from `c_1`.
+const ROOT: [f64; 16] = [
+    0.5,
+    -0.125,
+    0.0625,
+    -0.039_062_5,
+    0.027_343_75,
+    -0.020_507_812_5,
+    0.016_113_281_25,
+    -0.013_092_041_015_625,
+    0.010_910_034_179_687_5,
+    -0.009_273_529_052_734_375,
+    0.008_008_956_909_179_688,
+    -0.007_007_837_295_532_227,
+    0.006_199_240_684_509_277,
+    -0.005_535_036_325_454_712,
+    0.004_981_532_692_909_241,
+    -0.004_514_514_002_948_999,
+];
+
+/// The product of two symmetric tensors that commute, which is symmetric.
+#[inline]
+pub(crate) fn product(a: &Sym, b: &Sym) -> Sym {
+    let (a, b) = (&a.mandel, &b.mandel);
+    let (yz, xz, xy) = (0.5 * a[3] * b[3], 0.5 * a[4] * b[4], 0.5 * a[5] * b[5]);
+    Sym {
+        mandel: [
+            a[0] * b[0] + (xy + xz),
+            a[1] * b[1] + (xy + yz),
+            a[2] * b[2] + (xz + yz),
+            a[1] * b[3] + a[3] * b[2] + FRAC_1_SQRT_2 * a[5] * b[4],
+            a[0] * b[4] + a[4] * b[2] + FRAC_1_SQRT_2 * a[5] * b[3],
+            a[0] * b[5] + a[5] * b[1] + FRAC_1_SQRT_2 * a[4] * b[3],
+        ],
     }
 }
 

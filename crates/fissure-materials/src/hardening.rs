@@ -1,7 +1,8 @@
 //! Isotropic hardening: the yield stress as a function of the equivalent plastic strain.
 //!
-//! A curve may not fall: a local law whose yield stress falls localises in one cell, however small,
-//! and dissipates nothing in the limit. Softening belongs to the laws that know their band.
+//! The curves here do not fall: a local law whose yield stress falls localises in one cell, however
+//! small, and dissipates nothing in the limit. Softening belongs to the laws that know their band. A
+//! curve of one's own may fall, more slowly than `3μ`, to see when and how a law localises.
 
 use std::fmt::Debug;
 
@@ -9,7 +10,7 @@ use crate::{MaterialError, check_parameter};
 
 /// A yield stress `σ(α)` over the equivalent plastic strain `α ≥ 0`.
 ///
-/// `slope` may jump; `stress` may not, nor may it fall.
+/// `slope` may jump; `stress` may not, and is positive.
 pub trait Hardening: Debug + Send + Sync + 'static {
     /// Refuses parameters outside their range.
     ///
@@ -19,10 +20,10 @@ pub trait Hardening: Debug + Send + Sync + 'static {
         Ok(())
     }
 
-    /// Yield stress, Pa; > 0 and never falling.
+    /// Yield stress, Pa; > 0.
     fn stress(&self, plastic_strain: f64) -> f64;
 
-    /// Derivative of `stress`, Pa; ≥ 0.
+    /// Derivative of `stress`, Pa; > −3μ.
     fn slope(&self, plastic_strain: f64) -> f64;
 
     /// Plastic work `∫₀^α stress`, J/m³.

@@ -104,8 +104,8 @@ impl<H: Hardening> J2<H> {
         Ok(step)
     }
 
-    /// `Δα` of eq. 4: the yield stress does not fall, so the root is unique; Newton's method
-    /// inside a shrinking bracket takes one step where it rises in a straight line.
+    /// `Δα` of eq. 4: the yield stress does not fall faster than `3μ`, so the root is unique; Newton's
+    /// method inside a shrinking bracket takes one step where it is a straight line.
     fn flow(
         &self,
         mises: f64,
@@ -114,7 +114,8 @@ impl<H: Hardening> J2<H> {
         equivalent: f64,
     ) -> Result<f64, MaterialError> {
         let limit = |flow: f64| strength * self.hardening.stress(equivalent + flow);
-        let (mut low, mut high) = (0.0, (mises - limit(0.0)) / stiffness);
+        // A falling yield stress is still positive.
+        let (mut low, mut high) = (0.0, mises / stiffness);
         let (mut flow, mut excess) = (0.0, f64::NAN);
         for _ in 0..ITERATIONS {
             excess = mises - stiffness * flow - limit(flow);
@@ -218,6 +219,7 @@ impl<H: Hardening> Material for J2<H> {
     type State = J2State;
     const NAMES: &'static [&'static str] = &["equivalent_plastic_strain"];
     const STEP_ERROR: f64 = 0.05;
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = 0.07;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;

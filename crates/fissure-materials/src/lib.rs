@@ -51,6 +51,7 @@ mod testing;
 mod thermal;
 mod turning;
 mod viscous_damage;
+mod wrapping;
 
 pub use anisotropic_damage::{
     AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
@@ -73,7 +74,7 @@ pub use material::Material;
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::Orthotropic;
 pub use path::{Axis, Component, Control, Entry, GradientLeg, Leg, Path, Stage, SubSteps};
-pub use plane_stress::{PlaneStress, PlaneStressState};
+pub use plane_stress::{PlaneStress, PlaneStressState, SheetStep};
 pub use point::{Event, EventKind, History, Point, PointError, Sample};
 pub use scalar_damage::{
     DamageEvolution, Evolved, MazarsDamage, MazarsSoftening, Measure, RankineDamage, ScalarDamage,

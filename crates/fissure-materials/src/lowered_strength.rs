@@ -21,6 +21,7 @@ use std::fmt;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::wrapping::{hand_on_cracking, hand_on_material};
 use crate::{Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale};
 
 /// Band over limit at which a law with a lowered strength works, `r` of equation (1): 1 is the
@@ -117,7 +118,7 @@ impl<M: Material> LoweredStrength<M> {
         inner: Response<M::State>,
         factor: f64,
     ) -> Response<LoweredStrengthState<M::State>> {
-        let begun = inner.state != self.0.initial();
+        let begun = self.0.has_history(&inner.state);
         Response {
             stress: inner.stress,
             state: LoweredStrengthState {
@@ -139,12 +140,11 @@ fn lowered(scale: &Scale, factor: f64) -> Scale {
 
 impl<M: Material> Material for LoweredStrength<M> {
     type State = LoweredStrengthState<M::State>;
-    const OBJECTIVE: bool = M::OBJECTIVE;
-    const HYPERELASTIC: bool = M::HYPERELASTIC;
-    const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
+    hand_on_material!(0);
+
     const STEP_ERROR: f64 = M::STEP_ERROR;
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = M::STEP_ERROR_IN_PLANE_STRESS;
     const PLANE: bool = M::PLANE;
-    const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.0.check()
@@ -155,20 +155,8 @@ impl<M: Material> Material for LoweredStrength<M> {
         self.factor(band, scale).map(|_| ())
     }
 
-    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
-        self.0.started_width(&old.inner, &new.inner)
-    }
-
-    fn continuous(&self) -> bool {
-        self.0.continuous()
-    }
-
     fn isotropic(&self) -> bool {
         self.0.isotropic()
-    }
-
-    fn density(&self) -> f64 {
-        self.0.density()
     }
 
     fn wave_speed(&self, f: &Matrix3<f64>, state: &Self::State, scale: &Scale) -> f64 {
@@ -178,6 +166,17 @@ impl<M: Material> Material for LoweredStrength<M> {
     fn initial(&self) -> Self::State {
         LoweredStrengthState {
             inner: self.0.initial(),
+            factor: 0.0,
+        }
+    }
+
+    fn has_history(&self, state: &Self::State) -> bool {
+        self.0.has_history(&state.inner)
+    }
+
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        LoweredStrengthState {
+            inner: self.0.without_history(f),
             factor: 0.0,
         }
     }
@@ -206,23 +205,13 @@ impl<M: Material> Material for LoweredStrength<M> {
         Ok((self.response(response, factor), tangent))
     }
 
-    fn values(&self, state: &Self::State, out: &mut [f64]) {
-        self.0.values(&state.inner, out);
-    }
-
     fn out_of_plane_stretch(&self, state: &Self::State) -> Option<f64> {
         self.0.out_of_plane_stretch(&state.inner)
     }
 }
 
 impl<M: Cracking> Cracking for LoweredStrength<M> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.0.toughness(scale)
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.0.strength(scale)
-    }
+    hand_on_cracking!(0);
 
     /// Of the full strength; a lowered one opens further, by 1 over the factor.
     fn critical_opening(&self, scale: &Scale) -> f64 {
@@ -234,16 +223,8 @@ impl<M: Cracking> Cracking for LoweredStrength<M> {
         f64::INFINITY
     }
 
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        self.0.driving_stress(f, cauchy)
-    }
-
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
         self.0.failure_along(stress, normal, scale)
-    }
-
-    fn associated(&self) -> bool {
-        self.0.associated()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
@@ -256,10 +237,6 @@ impl<M: Cracking> Cracking for LoweredStrength<M> {
             crack.strength_ratio *= state.factor;
         }
         cracks
-    }
-
-    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
-        self.0.irreversible(&state.inner)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{Increment, MaterialError, Response, Scale};
+use crate::{Increment, MaterialError, Response, Scale, SheetStep};
 
 /// A constitutive law: a pure function from an increment and an old state to a new state.
 ///
@@ -43,11 +43,20 @@ pub trait Material: Send + Sync + 'static {
     /// checks hold the law to it. 0 for a law that such a division does not change.
     const STEP_ERROR: f64 = 1.0;
 
+    /// The same in plane stress, where the thickness turns a straight strain from its direction.
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = Self::STEP_ERROR;
+
     /// Whether the law determines its out-of-plane components itself, as in plane stress: it reads
     /// only the in-plane components of `F`, states the rest in
     /// [`out_of_plane_stretch`](Self::out_of_plane_stretch), and its tangent has none. The contract
     /// checks then strain and turn it in the plane.
     const PLANE: bool = false;
+
+    /// Whether bodies keep the states of those particles alone that have a history, which spares
+    /// the others all but four bytes. For laws whose state is that of
+    /// [`without_history`](Self::without_history) until something happens that seldom does, as
+    /// damage.
+    const SPARSE: bool = false;
 
     /// Names of what [`values`](Self::values) writes, for output and probes.
     const NAMES: &'static [&'static str] = &[];
@@ -99,6 +108,18 @@ pub trait Material: Send + Sync + 'static {
         Self::State::default()
     }
 
+    /// Whether a state has to be kept; if not, it is that of
+    /// [`without_history`](Self::without_history) at the deformation gradient it was reached at.
+    /// Asked of [`SPARSE`](Self::SPARSE) laws only.
+    fn has_history(&self, state: &Self::State) -> bool {
+        *state != self.initial()
+    }
+
+    /// The state of a particle to which nothing has happened, at its deformation gradient.
+    fn without_history(&self, _f: &Matrix3<f64>) -> Self::State {
+        self.initial()
+    }
+
     /// Stress, state and energies at the end of an increment.
     ///
     /// # Errors
@@ -120,6 +141,12 @@ pub trait Material: Send + Sync + 'static {
         difference_tangent(self, increment, old, DIFFERENCE_STEP)
     }
 
+    /// Whether the tangent of a step between these states is more than the default differences.
+    /// [`PlaneStress`](crate::PlaneStress) does not condense those: it takes its own.
+    fn has_own_tangent(&self, _old: &Self::State, _new: &Self::State) -> bool {
+        true
+    }
+
     /// Both at once, for laws that share work between them.
     ///
     /// # Errors
@@ -130,6 +157,21 @@ pub trait Material: Send + Sync + 'static {
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
         Ok((self.update(increment, old)?, self.tangent(increment, old)?))
+    }
+
+    /// A step in plane stress, from a law that has it in closed form; `None` from the others, whose
+    /// thickness [`PlaneStress`](crate::PlaneStress) looks for. Only the in-plane components of the
+    /// deformation gradients are to be read. The tangent may be left out.
+    ///
+    /// # Errors
+    /// As `update`.
+    fn plane_stress(
+        &self,
+        _increment: &Increment,
+        _old: &Self::State,
+        _with_tangent: bool,
+    ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
+        Ok(None)
     }
 
     /// Writes one number per entry of [`NAMES`](Self::NAMES).

@@ -11,7 +11,10 @@ mod tests;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
-use self::balance::{Solved, with_thickness};
+use self::balance::Solved;
+pub(crate) use self::balance::with_thickness;
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::wrapping::{hand_on_cracking, hand_on_material};
 use crate::{
     Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     check_parameter,
@@ -39,9 +42,24 @@ pub struct PlaneStressState<S> {
     pub thickening: f64,
 }
 
+/// What a law that has plane stress in closed form makes of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetStep<S> {
+    /// The answer; out-of-plane stresses do not count.
+    pub response: Response<S>,
+    /// Out-of-plane strain `F₃₃ − 1`; > −1.
+    pub thickening: f64,
+    /// Spatial tangent (see [`Material::tangent`]) of the in-plane components, for a `J` that goes
+    /// with the thickness. `None` if it was not asked for, or is to be taken by differences.
+    pub tangent: Option<Tangent>,
+}
+
 impl<M: Material> PlaneStress<M> {
-    fn response(solved: &Solved<M::State>) -> Response<PlaneStressState<M::State>> {
-        let mut stress = solved.response.stress;
+    fn response(
+        inner: &Response<M::State>,
+        thickening: f64,
+    ) -> Response<PlaneStressState<M::State>> {
+        let mut stress = inner.stress;
         // What is left of σ₃₃ is round-off; the out-of-plane shears are those of the plane problem.
         for i in OUT_OF_PLANE {
             stress.mandel[i] = 0.0;
@@ -49,11 +67,13 @@ impl<M: Material> PlaneStress<M> {
         Response {
             stress,
             state: PlaneStressState {
-                inner: solved.response.state,
-                thickening: solved.thickening,
+                inner: inner.state,
+                // What `F₃₃` can hold, so that a state follows from it (`without_history`); the law
+                // inside has seen no more.
+                thickening: (1.0 + thickening) - 1.0,
             },
-            stored: solved.response.stored,
-            dissipated: solved.response.dissipated,
+            stored: inner.stored,
+            dissipated: inner.dissipated,
         }
     }
 
@@ -110,7 +130,11 @@ impl<M: Material> PlaneStress<M> {
 /// The in-plane response at `σ₃₃ = 0`; rows and columns out of the plane are zero.
 fn condensed(tangent: &Tangent) -> Result<Tangent, MaterialError> {
     let c = tangent.0;
-    let mut plane = c - c.column(2) * c.row(2) / c[(2, 2)];
+    flattened(Tangent(c - c.column(2) * c.row(2) / c[(2, 2)]))
+}
+
+/// Without the rows and columns out of the plane.
+fn flattened(Tangent(mut plane): Tangent) -> Result<Tangent, MaterialError> {
     for i in OUT_OF_PLANE {
         plane.row_mut(i).fill(0.0);
         plane.column_mut(i).fill(0.0);
@@ -133,12 +157,10 @@ fn widened(band: &Band, factor: f64) -> Band {
 
 impl<M: Material> Material for PlaneStress<M> {
     type State = PlaneStressState<M::State>;
-    const OBJECTIVE: bool = M::OBJECTIVE;
-    const HYPERELASTIC: bool = M::HYPERELASTIC;
-    const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
-    const STEP_ERROR: f64 = M::STEP_ERROR;
+    hand_on_material!(0);
+
+    const STEP_ERROR: f64 = M::STEP_ERROR_IN_PLANE_STRESS;
     const PLANE: bool = true;
-    const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.0.check()?;
@@ -157,20 +179,8 @@ impl<M: Material> Material for PlaneStress<M> {
         self.check_relieved(band, scale)
     }
 
-    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
-        self.0.started_width(&old.inner, &new.inner)
-    }
-
     fn isotropic(&self) -> bool {
         self.0.isotropic()
-    }
-
-    fn continuous(&self) -> bool {
-        self.0.continuous()
-    }
-
-    fn density(&self) -> f64 {
-        self.0.density()
     }
 
     /// That of the law inside at the stretch of the state: an upper bound, since the freedom of
@@ -187,12 +197,28 @@ impl<M: Material> Material for PlaneStress<M> {
         }
     }
 
+    fn has_history(&self, state: &Self::State) -> bool {
+        self.0.has_history(&state.inner)
+    }
+
+    /// The thickness is that of the deformation gradient, to the last bit.
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        PlaneStressState {
+            inner: self.0.without_history(f),
+            thickening: f.m33 - 1.0,
+        }
+    }
+
     fn update(
         &self,
         increment: &Increment,
         old: &Self::State,
     ) -> Result<Response<Self::State>, MaterialError> {
-        Ok(Self::response(&self.checked(increment, old)?))
+        if let Some(step) = self.0.plane_stress(increment, &old.inner, false)? {
+            return Ok(Self::response(&step.response, step.thickening));
+        }
+        let solved = self.checked(increment, old)?;
+        Ok(Self::response(&solved.response, solved.thickening))
     }
 
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
@@ -204,13 +230,22 @@ impl<M: Material> Material for PlaneStress<M> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
+        if let Some(step) = self.0.plane_stress(increment, &old.inner, true)? {
+            let tangent = match step.tangent {
+                Some(tangent) => flattened(tangent)?,
+                None => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
+            };
+            return Ok((Self::response(&step.response, step.thickening), tangent));
+        }
         let solved = self.checked(increment, old)?;
-        let tangent = condensed(&self.0.tangent(&solved.increment, &old.inner)?)?;
-        Ok((Self::response(&solved), tangent))
-    }
-
-    fn values(&self, state: &Self::State, out: &mut [f64]) {
-        self.0.values(&state.inner, out);
+        let inner = &solved.response.state;
+        let tangent = if self.0.has_own_tangent(&old.inner, inner) {
+            condensed(&self.0.tangent(&solved.increment, &old.inner)?)?
+        } else {
+            difference_tangent(self, increment, old, DIFFERENCE_STEP)?
+        };
+        let response = Self::response(&solved.response, solved.thickening);
+        Ok((response, tangent))
     }
 
     fn out_of_plane_stretch(&self, state: &Self::State) -> Option<f64> {
@@ -219,13 +254,7 @@ impl<M: Material> Material for PlaneStress<M> {
 }
 
 impl<M: Cracking> Cracking for PlaneStress<M> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.0.toughness(scale)
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.0.strength(scale)
-    }
+    hand_on_cracking!(0);
 
     fn critical_opening(&self, scale: &Scale) -> f64 {
         self.0.critical_opening(scale)
@@ -235,27 +264,15 @@ impl<M: Cracking> Cracking for PlaneStress<M> {
         self.0.band_limit(scale) * self.relief(scale)
     }
 
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        self.0.driving_stress(f, cauchy)
-    }
-
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        self.0.failure_along(stress, normal, scale)
-    }
-
-    fn associated(&self) -> bool {
-        self.0.associated()
+        self.0.failure_in_plane(stress, normal, scale)
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.0.initiation(stress, scale)
+        self.0.initiation_in_plane(stress, scale)
     }
 
     fn cracks(&self, state: &Self::State) -> Vec<Crack> {
         self.0.cracks(&state.inner)
-    }
-
-    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
-        self.0.irreversible(&state.inner)
     }
 }

@@ -6,75 +6,14 @@
 
 use fissure_tensor::{Matrix3, Sym, Tangent, solve_lyapunov};
 
-use crate::Biot;
-
-/// `√(1 + x) − 1 = Σ c_k x^k`, from `c_1`.
-const ROOT: [f64; 16] = [
-    0.5,
-    -0.125,
-    0.0625,
-    -0.039_062_5,
-    0.027_343_75,
-    -0.020_507_812_5,
-    0.016_113_281_25,
-    -0.013_092_041_015_625,
-    0.010_910_034_179_687_5,
-    -0.009_273_529_052_734_375,
-    0.008_008_956_909_179_688,
-    -0.007_007_837_295_532_227,
-    0.006_199_240_684_509_277,
-    -0.005_535_036_325_454_712,
-    0.004_981_532_692_909_241,
-    -0.004_514_514_002_948_999,
-];
+use crate::{Biot, finite_strain::LeftStrain};
 
 /// The left stretch less one, `V − 1 = R·(U − 1)·Rᵀ`, without a polar decomposition: of use to an
-/// isotropic law, whose Cauchy stress it gives at once. `None` where `|F·Fᵀ − 1|` is over 0.1, or
-/// `F` turns space inside out.
-///
-/// The binomial series of the root of `1 + A`, `A = F·Fᵀ − 1`, by Horner's rule with the powers of
-/// `A` reduced by Cayley and Hamilton, is cut off where the terms are below round-off.
+/// isotropic law, whose Cauchy stress it gives at once. `None` where the strain is large, or `F` turns
+/// space inside out.
 #[inline]
 pub(crate) fn left_strain(f: &Matrix3<f64>) -> Option<Sym> {
-    let h = f - Matrix3::identity();
-    let a = Sym::from_matrix(&h) * 2.0 + Sym::from_matrix(&(h * h.transpose()));
-    let squared = a.dot(&a);
-    let terms = if squared <= 1e-6 {
-        6
-    } else if squared <= 1e-4 {
-        9
-    } else if squared <= 1e-2 {
-        16
-    } else {
-        return None; // also where anything is NaN
-    };
-    if !(f.determinant() > 0.0) {
-        return None;
-    }
-    let square = square(&a);
-    let first = a.trace();
-    let second = 0.5 * (first * first - squared);
-    let third = a.determinant();
-    let (mut p, mut q, mut r) = (ROOT[terms - 1], 0.0, 0.0);
-    for c in ROOT[..terms - 1].iter().rev() {
-        (p, q, r) = (c + third * r, p - second * r, q + first * r);
-    }
-    Some(Sym::IDENTITY * (third * r) + a * (p - second * r) + square * (q + first * r))
-}
-
-/// `A·A`.
-#[inline]
-fn square(a: &Sym) -> Sym {
-    let (xx, yy, zz) = (a.xx(), a.yy(), a.zz());
-    let (yz, xz, xy) = (a.yz(), a.xz(), a.xy());
-    Sym::new(
-        xx * xx + xy * xy + xz * xz,
-        xy * xy + yy * yy + yz * yz,
-        xz * xz + yz * yz + zz * zz,
-        xy * xz + yy * yz + yz * zz,
-        xx * xz + xy * yz + xz * zz,
-        xx * xy + xy * yy + xz * yz,
-    )
+    LeftStrain::new(f).ok()?.root()
 }
 
 impl Biot {

@@ -33,7 +33,9 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale, turning::Turning,
+    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale,
+    error::{check_below, check_scaled_toughness},
+    turning::Turning,
 };
 
 pub use mazars::{MazarsDamage, MazarsSoftening};
@@ -153,15 +155,9 @@ impl<E: DamageEvolution> ScalarDamage<E> {
     }
 
     fn check_width(&self, width: f64, scale: &Scale) -> Result<(), MaterialError> {
-        let limit = self.band_limit(scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: E::NAME,
-            width,
-            limit,
-        })
+        // Infinite for an evolution without a toughness, with which the scale has nothing to do.
+        check_scaled_toughness(E::NAME, scale.toughness)?;
+        check_below(E::NAME, width, self.band_limit(scale))
     }
 
     fn step(
@@ -273,6 +269,7 @@ impl<E: DamageEvolution> ScalarDamage<E> {
 
 impl<E: DamageEvolution> Material for ScalarDamage<E> {
     type State = ScalarDamageState;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["damage", "largest"];
     const STEP_ERROR: f64 = 0.0;
 
@@ -296,6 +293,10 @@ impl<E: DamageEvolution> Material for ScalarDamage<E> {
     /// That of the sound material times the longest stretch, as for every law on the Biot strain.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &ScalarDamageState, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &ScalarDamageState) -> bool {
+        state.width != 0.0
     }
 
     fn update(

@@ -2,21 +2,15 @@
 //!
 //! For an isotropic law the stress can be taken on the left stretch `V = (F·Fᵀ)^(1/2)`: with
 //! `E = V − 1` and `T = λ tr(E) 1 + 2μ E`, which has the principal values of the stress on the
-//! right stretch, the Cauchy stress is `σ = V·T/J = (T + E·T)/J`, since `V` and `T` commute. With
-//! `B = F·Fᵀ − 1`, exact near rest, `E = (1 + B)^(1/2) − 1` is the binomial series
-//! `B/2 − B²/8 + B³/16 − 5B⁴/128 + 7B⁵/256 − …`. Five terms leave `21 |B|⁶/1024`, which is below
-//! round-off of `V` up to `|B| = 2·10⁻³`; above that the series is not used.
+//! right stretch, the Cauchy stress is `σ = V·T/J = (T + E·T)/J`, since `V` and `T` commute.
+//! ([`LeftStrain::root`] gives `V − 1`).
 //!
 //! Most particles of a run are sound and far from their strength: this is what they cost.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use fissure_tensor::{Matrix3, Sym};
 
-use crate::{Isotropic, MaterialError, Response, finite_strain::LeftStrain};
-
-/// Largest `|F·Fᵀ − 1|²` for the series.
-const LARGEST_SQUARE: f64 = 4e-6;
+use crate::finite_strain::{LeftStrain, product};
+use crate::{Isotropic, MaterialError, Response};
 
 /// The response of an uncracked point if the strain is small and `accepts` rules a crack out for
 /// its stress, of which it may use the invariants only; else `None`, and the caller has to look
@@ -31,11 +25,9 @@ pub(crate) fn sound<State: Default>(
     accepts: impl Fn(&Sym) -> bool,
 ) -> Result<Option<Response<State>>, MaterialError> {
     let left = LeftStrain::new(f)?;
-    let excess = left.excess;
-    if excess.dot(&excess) > LARGEST_SQUARE {
+    let Some(strain) = left.root() else {
         return Ok(None);
-    }
-    let strain = root(&excess);
+    };
     let stress = elastic.stress(&strain);
     if accepts(&stress) {
         return Ok(Some(Response {
@@ -54,33 +46,6 @@ pub(crate) fn sound<State: Default>(
 pub(crate) fn below(strength: f64, stress: &Sym) -> bool {
     let reach = strength * (1.0 - 1e-9) - stress.mean();
     reach > 0.0 && 4.0 * stress.j2() < 3.0 * reach * reach
-}
-
-/// `(1 + B)^(1/2) − 1` for a small `B`.
-#[inline]
-fn root(b: &Sym) -> Sym {
-    let sum = *b * (7.0 / 256.0) - Sym::IDENTITY * (5.0 / 128.0);
-    let sum = product(b, &sum) + Sym::IDENTITY * (1.0 / 16.0);
-    let sum = product(b, &sum) - Sym::IDENTITY * 0.125;
-    let sum = product(b, &sum);
-    *b * 0.5 + product(b, &sum)
-}
-
-/// The product of two symmetric tensors that commute, which is symmetric.
-#[inline]
-fn product(a: &Sym, b: &Sym) -> Sym {
-    let (a, b) = (&a.mandel, &b.mandel);
-    let (yz, xz, xy) = (0.5 * a[3] * b[3], 0.5 * a[4] * b[4], 0.5 * a[5] * b[5]);
-    Sym {
-        mandel: [
-            a[0] * b[0] + (xy + xz),
-            a[1] * b[1] + (xy + yz),
-            a[2] * b[2] + (xz + yz),
-            a[1] * b[3] + a[3] * b[2] + FRAC_1_SQRT_2 * a[5] * b[4],
-            a[0] * b[4] + a[4] * b[2] + FRAC_1_SQRT_2 * a[5] * b[3],
-            a[0] * b[5] + a[5] * b[1] + FRAC_1_SQRT_2 * a[4] * b[3],
-        ],
-    }
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ impl TensionShear {
         plane
     }
 
-    fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
+    pub fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
         let traction = stress.traction(normal);
         let across = normal.dot(&traction);
         let tension = across / self.tensile - 1.0;

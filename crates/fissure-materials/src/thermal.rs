@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::isotropic::check_deformation;
 use crate::orthotropic::check_axes;
+use crate::wrapping::{hand_on_cracking, hand_on_material};
 use crate::{
     Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
     check_parameter,
@@ -177,12 +178,11 @@ impl<M: Material> Thermal<M> {
 
 impl<M: Material> Material for Thermal<M> {
     type State = ThermalState<M::State>;
-    const OBJECTIVE: bool = M::OBJECTIVE;
-    const HYPERELASTIC: bool = M::HYPERELASTIC;
-    const RATE_DEPENDENT: bool = M::RATE_DEPENDENT;
+    hand_on_material!(law);
+
     const STEP_ERROR: f64 = M::STEP_ERROR;
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = M::STEP_ERROR_IN_PLANE_STRESS;
     const PLANE: bool = M::PLANE;
-    const NAMES: &'static [&'static str] = M::NAMES;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.law.check()?;
@@ -193,21 +193,9 @@ impl<M: Material> Material for Thermal<M> {
         self.law.check_band(band, scale)
     }
 
-    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
-        self.law.started_width(&old.inner, &new.inner)
-    }
-
-    fn continuous(&self) -> bool {
-        self.law.continuous()
-    }
-
     /// Whether the law inside is; at the temperature at rest the expansion prefers no direction.
     fn isotropic(&self) -> bool {
         self.law.isotropic() && matches!(self.expansion, Expansion::Isotropic(_))
-    }
-
-    fn density(&self) -> f64 {
-        self.law.density()
     }
 
     /// Eq. 4, at the temperature of the state; that of the law inside where the expansion refuses
@@ -226,6 +214,18 @@ impl<M: Material> Material for Thermal<M> {
     fn initial(&self) -> Self::State {
         ThermalState {
             inner: self.law.initial(),
+            temperature: 0.0,
+        }
+    }
+
+    /// At a temperature other than that at rest every particle has one.
+    fn has_history(&self, state: &Self::State) -> bool {
+        state.temperature != 0.0 || self.law.has_history(&state.inner)
+    }
+
+    fn without_history(&self, f: &Matrix3<f64>) -> Self::State {
+        ThermalState {
+            inner: self.law.without_history(f),
             temperature: 0.0,
         }
     }
@@ -257,10 +257,6 @@ impl<M: Material> Material for Thermal<M> {
         Ok((Self::response(response, &stretch, temperature), tangent))
     }
 
-    fn values(&self, state: &Self::State, out: &mut [f64]) {
-        self.law.values(&state.inner, out);
-    }
-
     fn out_of_plane_stretch(&self, state: &Self::State) -> Option<f64> {
         let inner = self.law.out_of_plane_stretch(&state.inner)?;
         let stretch = self.expansion.stretch(state.temperature).ok()?;
@@ -271,13 +267,7 @@ impl<M: Material> Material for Thermal<M> {
 /// As the law inside, whose reference configuration is the expanded one. Its failure function is
 /// asked for stresses at the temperature at rest.
 impl<M: Cracking> Cracking for Thermal<M> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.law.toughness(scale)
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.law.strength(scale)
-    }
+    hand_on_cracking!(law);
 
     fn critical_opening(&self, scale: &Scale) -> f64 {
         self.law.critical_opening(scale)
@@ -287,16 +277,8 @@ impl<M: Cracking> Cracking for Thermal<M> {
         self.law.band_limit(scale)
     }
 
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        self.law.driving_stress(f, cauchy)
-    }
-
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
         self.law.failure_along(stress, normal, scale)
-    }
-
-    fn associated(&self) -> bool {
-        self.law.associated()
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
@@ -314,10 +296,6 @@ impl<M: Cracking> Cracking for Thermal<M> {
             }
         }
         cracks
-    }
-
-    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
-        self.law.irreversible(&state.inner)
     }
 }
 

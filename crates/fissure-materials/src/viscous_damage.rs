@@ -194,6 +194,7 @@ impl ViscousDamage {
 impl Material for ViscousDamage {
     type State = ViscousDamageState;
     const RATE_DEPENDENT: bool = true;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["damage", "static_damage", "equivalent_strain"];
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -225,6 +226,10 @@ impl Material for ViscousDamage {
     /// That of the sound material times the longest stretch.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &Self::State, scale: &Scale) -> f64 {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &ViscousDamageState) -> bool {
+        state.equivalent != 0.0
     }
 
     fn update(

@@ -5,8 +5,8 @@
 mod nairn;
 
 use fissure_materials::{
-    AnisotropicDamage, Cracking, Isotropic, MixedMode, Mode, Onset, Vector3, contract::Contract,
-    softening::Linear,
+    AnisotropicDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode, Onset, PlaneStress,
+    SteppedCircleDamage, Vector3, contract::Contract, softening::Linear,
 };
 use nairn::Exponential;
 
@@ -121,4 +121,33 @@ fn weak_in_shear_passes_as_any_law() {
     };
     let message = contract.check(&weak).err().map(|v| v.to_string());
     assert_eq!(message.unwrap_or_default(), "");
+}
+
+#[test]
+fn plane_stress_passes() {
+    passes(&PlaneStress(law()));
+    for mixed in [MixedMode::default(), MixedMode::Uncoupled] {
+        for onset in [
+            Onset::InPlane,
+            Onset::Tension,
+            Onset::Prescribed(Vector3::new(1.0, 2.0, 0.0)),
+        ] {
+            passes_shortly(
+                &PlaneStress(AnisotropicDamage {
+                    mixed,
+                    onset,
+                    ..law()
+                }),
+                3,
+            );
+        }
+    }
+}
+
+#[test]
+fn variants_pass_in_plane_stress() {
+    let elliptical: EllipticalDamage = EllipticalDamage::new(law());
+    let stepped: SteppedCircleDamage = SteppedCircleDamage::new(law());
+    passes_shortly(&PlaneStress(stepped), 4);
+    passes_shortly(&PlaneStress(elliptical), 5);
 }

@@ -53,7 +53,8 @@ impl<const D: usize> Body<D> {
     /// A value of the law's state (one of [`BodyLaw::names`]) of each particle.
     pub fn value(&self, name: &str) -> Option<Vec<f64>> {
         let value = self.law.names().iter().position(|n| *n == name)?;
-        Some(self.law.values(value))
+        let gradients = &self.particles.motion.deformation_gradient;
+        Some(self.law.values(value, gradients))
     }
 
     /// Factors on the law's parameters at each particle, if any differ from 1.

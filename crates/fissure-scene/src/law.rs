@@ -1,12 +1,13 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use fissure_materials::{External, Increment, Material, MaterialError, Response, Scale};
+use fissure_materials::{External, Increment, Material, MaterialError, Matrix3, Response, Scale};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, Sym};
 
 use crate::PersistError;
 use crate::body::ParticleScale;
 use crate::over_windows::{Cut, over_windows};
+use crate::states::{Fresh, StateColumns, States};
 use crate::sweep::{
     KernelFailure, Run, RunConstants, RunKernel, SweepCause, SweepFailure, SweepSettings,
     SweepTotals, Tangents, WindowKernel,
@@ -36,8 +37,9 @@ impl<'a> Constants<'a> {
 pub trait BodyLaw: Send + Sync {
     /// Names of the values that the law's state can show.
     fn names(&self) -> &'static [&'static str];
-    /// One of those values of each particle, in the order of the columns.
-    fn values(&self, value: usize) -> Vec<f64>;
+    /// One of those values of each particle, in the order of the columns, from their present
+    /// deformation gradients.
+    fn values(&self, value: usize, deformation_gradient: &[Matrix3<f64>]) -> Vec<f64>;
     /// Reference mass density, kg/m³.
     fn density(&self) -> f64;
     /// Refuses a band for which the response would not be unique.
@@ -80,16 +82,14 @@ pub(crate) trait SweepLaw<const D: usize>: BodyLaw {
 /// A law and the present and trial states of its particles.
 pub(crate) struct TypedLaw<M: Material> {
     law: M,
-    states: Vec<M::State>,
-    trial: Vec<M::State>,
+    states: States<M>,
 }
 
 impl<M: Material> TypedLaw<M> {
     pub(crate) fn new(law: M) -> Self {
         Self {
             law,
-            states: Vec::new(),
-            trial: Vec::new(),
+            states: States::default(),
         }
     }
 }
@@ -99,13 +99,14 @@ impl<M: Material> BodyLaw for TypedLaw<M> {
         M::NAMES
     }
 
-    fn values(&self, value: usize) -> Vec<f64> {
+    fn values(&self, value: usize, deformation_gradient: &[Matrix3<f64>]) -> Vec<f64> {
         let mut row = vec![f64::NAN; M::NAMES.len()];
-        let pick = |state| {
-            self.law.values(state, &mut row);
+        let pick = |(i, f)| {
+            let state = self.states.get(&self.law, i, f);
+            self.law.values(&state, &mut row);
             row.get(value).copied().unwrap_or(f64::NAN)
         };
-        self.states.iter().map(pick).collect()
+        deformation_gradient.iter().enumerate().map(pick).collect()
     }
 
     fn density(&self) -> f64 {
@@ -117,25 +118,11 @@ impl<M: Material> BodyLaw for TypedLaw<M> {
     }
 
     fn save(&self) -> Result<Vec<u8>, postcard::Error> {
-        postcard::to_stdvec(&self.states)
+        self.states.save()
     }
 
     fn restore(&mut self, bytes: &[u8], section: &str) -> Result<(), PersistError> {
-        let states: Vec<M::State> =
-            postcard::from_bytes(bytes).map_err(|source| PersistError::Decode {
-                section: section.to_owned(),
-                source,
-            })?;
-        if states.len() != self.states.len() {
-            return Err(PersistError::Mismatch {
-                section: section.to_owned(),
-                what: "number of particles",
-                found: states.len(),
-                expected: self.states.len(),
-            });
-        }
-        self.states = states;
-        Ok(())
+        self.states.restore(bytes, section)
     }
 }
 
@@ -145,28 +132,23 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
     }
 
     fn grow(&mut self, count: usize) {
-        self.states.resize(count, self.law.initial());
+        self.states.grow(&self.law, count);
     }
 
     fn reorder(&mut self, order: &[u32]) {
-        self.trial.clear();
-        self.trial
-            .extend(order.iter().map(|&i| self.states[i as usize]));
-        std::mem::swap(&mut self.states, &mut self.trial);
+        self.states.reorder(order);
     }
 
     fn commit(&mut self) {
-        std::mem::swap(&mut self.states, &mut self.trial);
+        self.states.commit();
     }
 
     fn wave_speed(&self, motion: &MotionSlices<'_, D>, constants: &Constants<'_>) -> f64 {
         let mut fastest: f64 = 0.0;
-        for (i, state) in self.states.iter().enumerate() {
+        for (i, f) in motion.deformation_gradient.iter().enumerate() {
+            let state = self.states.get(&self.law, i, f);
             let scale = scale_of(constants.scale, i);
-            let speed = self
-                .law
-                .wave_speed(&motion.deformation_gradient[i], state, &scale);
-            fastest = fastest.max(speed);
+            fastest = fastest.max(self.law.wave_speed(f, &state, &scale));
         }
         fastest
     }
@@ -181,7 +163,6 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         settings: &SweepSettings,
         tangents: Tangents<'_>,
     ) -> Result<SweepTotals, SweepFailure> {
-        self.trial.resize(self.states.len(), M::State::default());
         let sweep = Sweep {
             law: &self.law,
             constants,
@@ -191,8 +172,7 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         let part = Part {
             old,
             new,
-            states: &self.states,
-            trial: &mut self.trial,
+            states: self.states.columns(),
             tangents,
         };
         let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
@@ -202,8 +182,47 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         let (part, _) = part.cut(last.end as usize);
         let (_, part) = part.cut(first.start as usize);
         let leaf = |runs: &[Run], part| sweep.window(runs, part);
-        over_windows(runs, part, &leaf, &SweepFailure::first)
-            .unwrap_or_else(|| Ok(SweepTotals::default()))
+        let swept = over_windows(runs, part, &leaf, &Swept::join).unwrap_or_else(Swept::nothing);
+        match swept {
+            Swept {
+                totals: Ok(totals),
+                fresh,
+            } => {
+                self.states.put_aside(runs, fresh);
+                Ok(totals)
+            }
+            Swept {
+                totals: Err(failure),
+                ..
+            } => {
+                self.states.forget();
+                Err(failure)
+            }
+        }
+    }
+}
+
+/// What a sweep over some windows came to: sums or a failure, and the first histories of particles.
+struct Swept<S> {
+    totals: Result<SweepTotals, SweepFailure>,
+    fresh: Fresh<S>,
+}
+
+impl<S> Swept<S> {
+    fn nothing() -> Self {
+        Self {
+            totals: Ok(SweepTotals::default()),
+            fresh: Vec::new(),
+        }
+    }
+
+    /// Of two sets of particles, the first of which come first.
+    fn join(mut self, mut other: Self) -> Self {
+        self.fresh.append(&mut other.fresh);
+        Self {
+            totals: SweepFailure::first(self.totals, other.totals),
+            fresh: self.fresh,
+        }
     }
 }
 
@@ -220,34 +239,30 @@ struct Sweep<'a, M: Material, const D: usize> {
 }
 
 /// The columns of some consecutive runs, cut out of the body's.
-struct Part<'a, S, const D: usize> {
+struct Part<'a, M: Material, const D: usize> {
     old: MotionSlices<'a, D>,
     new: MotionSlicesMut<'a, D>,
-    states: &'a [S],
-    trial: &'a mut [S],
+    states: StateColumns<'a, M>,
     tangents: Tangents<'a>,
 }
 
-impl<S: Send + Sync, const D: usize> Cut for Part<'_, S, D> {
+impl<M: Material, const D: usize> Cut for Part<'_, M, D> {
     fn cut(self, row: usize) -> (Self, Self) {
         let (old_a, old_b) = self.old.split_at(row);
         let (new_a, new_b) = self.new.split_at(row);
-        let (states_a, states_b) = self.states.split_at(row);
-        let (trial_a, trial_b) = self.trial.split_at_mut(row);
+        let (states_a, states_b) = self.states.cut(row);
         let (tangents_a, tangents_b) = self.tangents.split_at(row);
         (
             Self {
                 old: old_a,
                 new: new_a,
                 states: states_a,
-                trial: trial_a,
                 tangents: tangents_a,
             },
             Self {
                 old: old_b,
                 new: new_b,
                 states: states_b,
-                trial: trial_b,
                 tangents: tangents_b,
             },
         )
@@ -256,12 +271,8 @@ impl<S: Send + Sync, const D: usize> Cut for Part<'_, S, D> {
 
 impl<M: Material, const D: usize> Sweep<'_, M, D> {
     /// The runs of one window, one after another.
-    fn window(
-        &self,
-        runs: &[Run],
-        part: Part<'_, M::State, D>,
-    ) -> Result<SweepTotals, SweepFailure> {
-        let mut result = Ok(SweepTotals::default());
+    fn window(&self, runs: &[Run], part: Part<'_, M, D>) -> Swept<M::State> {
+        let mut swept = Swept::nothing();
         let mut rest = Some(part);
         let moved = self.kernel.on_window(runs[0].window, &mut |kernel| {
             for run in runs {
@@ -274,21 +285,19 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                     let (old, new) = (&part.old, &mut part.new);
                     return Err(failure.lowest(kernel, run, &self.constants, old, new));
                 }
-                let totals = self.run(run, kernel, &mut part);
+                let totals = self.run(run, kernel, &mut part, &mut swept.fresh);
                 if totals.is_ok() {
                     kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
                 }
-                result = SweepFailure::first(
-                    std::mem::replace(&mut result, Ok(SweepTotals::default())),
-                    totals,
-                );
+                let before = std::mem::replace(&mut swept.totals, Ok(SweepTotals::default()));
+                swept.totals = SweepFailure::first(before, totals);
             }
             Ok(())
         });
-        match moved {
-            Ok(()) => result,
-            Err(KernelFailure { index }) => Err(self.failure(index, SweepCause::Kernel)),
+        if let Err(KernelFailure { index }) = moved {
+            swept.totals = Err(self.failure(index, SweepCause::Kernel));
         }
+        swept
     }
 
     /// Calls the law on each particle of a run.
@@ -296,13 +305,13 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         &self,
         run: &Run,
         kernel: &dyn WindowKernel<D>,
-        part: &mut Part<'_, M::State, D>,
+        part: &mut Part<'_, M, D>,
+        fresh: &mut Fresh<M::State>,
     ) -> Result<SweepTotals, SweepFailure> {
         let Part {
             old,
             new,
             states,
-            trial,
             tangents,
         } = part;
         let first = run.start as usize;
@@ -324,31 +333,48 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                 band: self.settings.band,
                 external: External { scale, ..set },
             };
+            let slot = states.slot(row);
+            let blank;
+            let state = match slot {
+                Some(slot) => states.present(slot),
+                None => {
+                    blank = self.law.without_history(&increment.f_old);
+                    &blank
+                }
+            };
             let answer = match tangents {
-                Tangents::None => self.law.update(&increment, &states[row]),
-                Tangents::Into(tangents) => self
-                    .law
-                    .update_with_tangent(&increment, &states[row])
-                    .map(|(response, tangent)| {
-                        tangents[row] = tangent;
-                        response
-                    }),
+                Tangents::None => self.law.update(&increment, state),
+                Tangents::Into(tangents) => {
+                    self.law
+                        .update_with_tangent(&increment, state)
+                        .map(|(response, tangent)| {
+                            tangents[row] = tangent;
+                            response
+                        })
+                }
             };
             match answer.and_then(finite::<M>) {
                 Ok(response) => {
                     let volume = self.constants.volume[index];
-                    trial[row] = response.state;
                     new.stress[row] = response.stress;
                     totals.stored += response.stored * volume;
                     totals.dissipated += response.dissipated * volume;
                     if let Some(stretch) = self.law.out_of_plane_stretch(&response.state) {
                         new.deformation_gradient[row].m33 = stretch;
                     }
-                    let speed = self.law.wave_speed(&increment.f_new, &trial[row], &scale);
+                    let law = &self.law;
+                    let speed = law.wave_speed(&increment.f_new, &response.state, &scale);
                     totals.wave_speed = totals.wave_speed.max(speed);
                     // The law may have set its own thickness.
                     increment.f_new.m33 = new.deformation_gradient[row].m33;
-                    let sheet = self.law.out_of_plane_stretch(&trial[row]).is_some();
+                    let sheet = law.out_of_plane_stretch(&response.state).is_some();
+                    match slot {
+                        Some(slot) => states.set_trial(slot, response.state),
+                        None if law.has_history(&response.state) => {
+                            fresh.push((index as u32, response.state));
+                        }
+                        None => {}
+                    }
                     let (pressure, work) = self.viscous_pressure(&increment, speed, sheet);
                     if pressure > 0.0 {
                         let mut viscous = Sym::IDENTITY * pressure;
@@ -363,7 +389,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                     let cause = SweepCause::Law {
                         source,
                         deformation_gradient: Box::new(increment.f_new),
-                        state: format!("{:?}", states[row]),
+                        state: format!("{state:?}"),
                     };
                     let next = self.failure(index, cause);
                     if failure.as_ref().is_none_or(|failure| next.id < failure.id) {

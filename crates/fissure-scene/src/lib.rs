@@ -34,6 +34,7 @@ mod over_windows;
 mod persist;
 mod scene;
 mod solver;
+mod states;
 mod sweep;
 
 pub use body::{Body, BodyFailure, ParticleScale};
@@ -53,6 +54,7 @@ pub use over_windows::for_each_window;
 pub use persist::Section;
 pub use scene::Scene;
 pub use solver::{RunSummary, Solver, Until, Watch, run};
+pub use states::state_bytes;
 pub use sweep::{
     ByRun, KernelFailure, Run, RunConstants, RunKernel, SweepSettings, SweepTotals, Viscosity,
     WindowKernel,

@@ -44,15 +44,23 @@ pub const SETTINGS: [Setting; 5] = [
 
 /// A brittle bar pulled at one end, and a ball; everything shifted by `offset`.
 pub fn scene(offset: f64) -> Scene<2> {
-    let mut scene = Table::scene(Space::Plane);
-    let at = |x: f64, y: f64| [x + offset, y + offset];
-    let brittle = Decohesive {
+    scene_of(Table::scene(Space::Plane), brittle(), offset)
+}
+
+/// The bar's law.
+pub fn brittle() -> Decohesive {
+    Decohesive {
         elastic: rubber().elastic,
         strength: 2e4,
         toughness: 30.0,
         softening: softening::Linear,
         normal: Normal::Rankine,
-    };
+    }
+}
+
+/// The same in an empty scene, with any law for the bar.
+pub fn scene_of<M: Material>(mut scene: Scene<2>, brittle: M, offset: f64) -> Scene<2> {
+    let at = |x: f64, y: f64| [x + offset, y + offset];
     scene
         .fill(
             "bar",

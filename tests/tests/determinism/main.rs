@@ -12,5 +12,6 @@
 
 mod fragments;
 mod restart;
+mod sparse;
 mod threads;
 mod translation;

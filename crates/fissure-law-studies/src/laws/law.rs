@@ -333,8 +333,8 @@ pub trait Law: Send + Sync {
     fn failure_strain(&self, band: f64) -> f64;
     /// Largest difference between one step and many that the law states.
     fn step_error(&self) -> f64;
-    /// Bytes of the state of a particle.
-    fn bytes(&self) -> usize;
+    /// Bytes that the state of a particle takes in a body: without a history, and with one.
+    fn bytes(&self) -> [usize; 2];
     /// Puts the law through the public contract.
     ///
     /// # Errors
@@ -376,8 +376,8 @@ impl<S: Subject> Law for S {
         S::M::STEP_ERROR
     }
 
-    fn bytes(&self) -> usize {
-        size_of::<State<S>>()
+    fn bytes(&self) -> [usize; 2] {
+        fissure::scene::state_bytes::<S::M>()
     }
 
     fn check_contract(&self, contract: &Contract) -> Result<Summary, Violation> {

@@ -3,8 +3,9 @@
 use fissure_tensor::{Sym, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::elasticity::Elastic;
 use super::mode::ModeAt;
-use crate::{Crack, Isotropic, MaterialError, Softening, check_parameter};
+use crate::{Crack, MaterialError, Softening, check_parameter};
 
 /// When a crack that opens and shears at once has failed [Nairn 2017, eq. 34].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,12 +85,15 @@ pub(super) struct Demand {
 }
 
 impl Demand {
-    pub fn new(elastic: &Isotropic, normal: &Vector3<f64>, strain: &Sym) -> Self {
+    pub fn new<const SHEET: bool>(
+        elastic: &Elastic<SHEET>,
+        normal: &Vector3<f64>,
+        strain: &Sym,
+    ) -> Self {
         let traction = strain.traction(normal);
         let along = normal.dot(&traction);
-        let ratio = elastic.poisson / (1.0 - elastic.poisson);
         Self {
-            normal: along + ratio * (strain.trace() - along),
+            normal: elastic.normal_demand(strain, along),
             shear: (traction - normal * along) * 2.0,
         }
     }

@@ -19,7 +19,7 @@ impl<N: Softening, T: Softening> Cracking for AnisotropicDamage<N, T> {
     }
 
     fn band_limit(&self, scale: &Scale) -> f64 {
-        self.limit(scale)
+        self.limit::<false>(scale)
     }
 
     fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
@@ -27,7 +27,7 @@ impl<N: Softening, T: Softening> Cracking for AnisotropicDamage<N, T> {
     }
 
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        self.surface(scale).value_along(stress, normal)
+        self.surface::<false>(scale).value_along(stress, normal)
     }
 
     /// The stress `R·T·Rᵀ` has no potential at finite strain.
@@ -36,14 +36,25 @@ impl<N: Softening, T: Softening> Cracking for AnisotropicDamage<N, T> {
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.surface(scale).asked(stress).initiation
+        self.surface::<false>(scale).asked(stress).initiation
+    }
+
+    fn failure_in_plane(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.surface::<true>(scale).value_along(stress, normal)
+    }
+
+    fn initiation_in_plane(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        self.surface::<true>(scale).asked(stress).initiation
     }
 
     fn cracks(&self, state: &AnisotropicDamageState) -> Vec<Crack> {
         if state.width == 0.0 {
             return Vec::new();
         }
-        vec![self.crack_at(&Scale::default(), state).described(state)]
+        vec![
+            self.crack_at::<false>(&Scale::default(), state)
+                .described(state),
+        ]
     }
 
     fn irreversible(&self, state: &AnisotropicDamageState) -> Vec<f64> {

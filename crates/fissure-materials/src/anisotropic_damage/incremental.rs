@@ -27,7 +27,7 @@ use super::{circle, ellipse};
 use crate::softening::Linear;
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
-    Softening, check_parameter,
+    SheetStep, Softening, check_parameter,
 };
 
 const NAME: &str = "incremental anisotropic damage";
@@ -113,8 +113,8 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         Self { parameters }
     }
 
-    fn modes(&self, width: f64, scale: &Scale) -> Modes<'_, N, T> {
-        let elastic = self.parameters.elastic.scaled(scale);
+    fn modes<const SHEET: bool>(&self, width: f64, scale: &Scale) -> Modes<'_, N, T> {
+        let elastic = self.parameters.elastic_at::<SHEET>(scale);
         Modes {
             opening: self
                 .parameters
@@ -128,14 +128,14 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
     }
 
     /// A new crack, if the stress asks for one.
-    fn started(
+    fn started<const SHEET: bool>(
         &self,
         stress: &Sym,
         kinematics: &Biot,
         band: &Band,
         scale: &Scale,
     ) -> Result<Option<IncrementalState>, MaterialError> {
-        let surface = self.parameters.surface(scale);
+        let surface = self.parameters.surface::<SHEET>(scale);
         if surface.is_surely_below(stress) {
             return Ok(None);
         }
@@ -145,7 +145,7 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         }
         let normal = initiation.normal;
         let width = band.width(&(kinematics.rotation * normal));
-        self.parameters.check_width(width, scale)?;
+        self.parameters.check_width::<SHEET>(width, scale)?;
         // Along the shear if there is one, else along a principal direction.
         let traction = stress.traction(&normal);
         let shear = traction - normal * normal.dot(&traction);
@@ -175,68 +175,20 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         let from = Biot::new(&increment.f_old).map_or(to, |start| start.strain() - heat);
         (from, to)
     }
-}
 
-impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
-    for IncrementalDamage<ELLIPSE, N, T>
-{
-    type State = IncrementalState;
-    /// On the ellipse the answer depends on the axes in the crack's plane.
-    const OBJECTIVE: bool = !ELLIPSE;
-    const HYPERELASTIC: bool = false;
-    const NAMES: &'static [&'static str] =
-        &["opening", "opened", "sheared_1", "sheared_2", "failed"];
-
-    fn check(&self) -> Result<(), MaterialError> {
-        self.parameters.check()?;
-        let friction = self.parameters.friction;
-        check_parameter(
-            NAME,
-            "friction",
-            friction,
-            friction == 0.0,
-            "0: it has none",
-        )
-    }
-
-    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
-        self.parameters.check_band(band, scale)
-    }
-
-    fn started_width(&self, old: &IncrementalState, new: &IncrementalState) -> f64 {
-        if old.width == 0.0 { new.width } else { 0.0 }
-    }
-
-    fn isotropic(&self) -> bool {
-        false
-    }
-
-    fn continuous(&self) -> bool {
-        false
-    }
-
-    fn density(&self) -> f64 {
-        self.parameters.density()
-    }
-
-    fn wave_speed(&self, f: &Matrix3<f64>, _state: &IncrementalState, scale: &Scale) -> f64 {
-        self.parameters
-            .wave_speed(f, &AnisotropicDamageState::default(), scale)
-    }
-
-    fn update(
+    fn updated<const SHEET: bool>(
         &self,
         increment: &Increment,
         old: &IncrementalState,
     ) -> Result<Response<IncrementalState>, MaterialError> {
         let scale = &increment.external.scale;
-        let elastic = self.parameters.elastic.scaled(scale);
+        let elastic = self.parameters.elastic_at::<SHEET>(scale);
         let kinematics = Biot::new(&increment.f_new)?;
         let (from, to) = self.strains(increment, &kinematics);
         let undamaged = elastic.stress(&to);
         let mut state = *old;
         if state.width == 0.0 {
-            match self.started(&undamaged, &kinematics, &increment.band, scale)? {
+            match self.started::<SHEET>(&undamaged, &kinematics, &increment.band, scale)? {
                 Some(started) => state = started,
                 None => {
                     return Ok(Response {
@@ -248,7 +200,7 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
                 }
             }
         }
-        let modes = self.modes(state.width, scale);
+        let modes = self.modes::<SHEET>(state.width, scale);
         let before = modes.spent(&state);
         let [normal, first, second] = state.frame();
         let [start, end] = [from, to].map(|strain| Demand::new(&elastic, &normal, &strain));
@@ -304,6 +256,85 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
             stored,
             dissipated: (modes.spent(&state) - before + released).max(0.0),
         })
+    }
+}
+
+impl<const ELLIPSE: bool, N: Softening, T: Softening> Material
+    for IncrementalDamage<ELLIPSE, N, T>
+{
+    type State = IncrementalState;
+    /// On the ellipse the answer depends on the axes in the crack's plane.
+    const OBJECTIVE: bool = !ELLIPSE;
+    const HYPERELASTIC: bool = false;
+    const SPARSE: bool = true;
+    const NAMES: &'static [&'static str] =
+        &["opening", "opened", "sheared_1", "sheared_2", "failed"];
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.parameters.check()?;
+        let friction = self.parameters.friction;
+        check_parameter(
+            NAME,
+            "friction",
+            friction,
+            friction == 0.0,
+            "0: it has none",
+        )
+    }
+
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        self.parameters.check_band(band, scale)
+    }
+
+    fn started_width(&self, old: &IncrementalState, new: &IncrementalState) -> f64 {
+        if old.width == 0.0 { new.width } else { 0.0 }
+    }
+
+    fn isotropic(&self) -> bool {
+        false
+    }
+
+    fn continuous(&self) -> bool {
+        false
+    }
+
+    fn density(&self) -> f64 {
+        self.parameters.density()
+    }
+
+    fn wave_speed(&self, f: &Matrix3<f64>, _state: &IncrementalState, scale: &Scale) -> f64 {
+        self.parameters
+            .wave_speed(f, &AnisotropicDamageState::default(), scale)
+    }
+
+    fn has_history(&self, state: &IncrementalState) -> bool {
+        state.width != 0.0
+    }
+
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &IncrementalState,
+    ) -> Result<Response<IncrementalState>, MaterialError> {
+        self.updated::<false>(increment, old)
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &IncrementalState,
+        _with_tangent: bool,
+    ) -> Result<Option<SheetStep<IncrementalState>>, MaterialError> {
+        let Some(flat) = self.parameters.flattened(increment) else {
+            return Ok(None);
+        };
+        let response = self.updated::<true>(&flat, old)?;
+        let thickening = self.parameters.thickening(&flat, &response.stress)?;
+        Ok(Some(SheetStep {
+            response,
+            thickening,
+            tangent: None,
+        }))
     }
 
     fn values(&self, state: &IncrementalState, out: &mut [f64]) {
@@ -373,11 +404,19 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> Cracking
         self.parameters.initiation(stress, scale)
     }
 
+    fn failure_in_plane(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
+        self.parameters.failure_in_plane(stress, normal, scale)
+    }
+
+    fn initiation_in_plane(&self, stress: &Sym, scale: &Scale) -> Initiation {
+        self.parameters.initiation_in_plane(stress, scale)
+    }
+
     fn cracks(&self, state: &IncrementalState) -> Vec<Crack> {
         if state.width == 0.0 {
             return Vec::new();
         }
-        let modes = self.modes(state.width, &Scale::default());
+        let modes = self.modes::<false>(state.width, &Scale::default());
         let [first, second] = state.sheared.map(|s| modes.shear.dissipated_fraction(s));
         let fraction = modes.opening.dissipated_fraction(state.opened) + first + second;
         vec![Crack {

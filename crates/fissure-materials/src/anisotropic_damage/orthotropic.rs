@@ -20,7 +20,9 @@
 //! objective. Everything else is as in [`AnisotropicDamage`](crate::AnisotropicDamage), whose law on a
 //! prescribed plane this is for an isotropic stiffness.
 
+mod cracking;
 mod plane;
+mod sheet;
 
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
@@ -28,10 +30,11 @@ use self::plane::PlaneAt;
 use super::crack::{AnisotropicDamageState, CrackAt, MixedMode, Moved};
 use super::mode::Mode;
 use super::tangent::width_rate;
+use crate::error::{check_below, check_scaled_toughness};
 use crate::softening::Linear;
 use crate::{
-    Biot, Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
-    Softening, check_parameter,
+    Biot, Increment, Initiation, Material, MaterialError, Response, Scale, SheetStep, Softening,
+    check_parameter,
 };
 
 const NAME: &str = "orthotropic damage";
@@ -135,15 +138,11 @@ impl<const P: usize, N: Softening, T: Softening> OrthotropicDamage<P, N, T> {
     }
 
     fn check_width(&self, index: usize, width: f64, scale: &Scale) -> Result<(), MaterialError> {
-        let limit = self.limit(index, scale);
-        if width > 0.0 && width < limit {
-            return Ok(());
+        let plane = &self.planes[index];
+        for mode in [plane.opening.toughness, plane.shear.toughness] {
+            check_scaled_toughness(NAME, mode * scale.toughness)?;
         }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_below(NAME, width, self.limit(index, scale))
     }
 
     fn step(
@@ -187,6 +186,35 @@ impl<const P: usize, N: Softening, T: Softening> OrthotropicDamage<P, N, T> {
         })
     }
 
+    /// Rate of `T` with those of strain and rotation.
+    fn rates(
+        &self,
+        kinematics: &Biot,
+        step: &Step,
+        increment: &Increment,
+    ) -> impl Fn(&Sym, &Matrix3<f64>) -> Sym {
+        let stiffness = self.stiffness * increment.external.scale.stiffness;
+        let modulus = match &step.crack {
+            Some((plane, moved)) => plane.modulus(&stiffness, moved),
+            None => stiffness,
+        };
+        move |strain_rate, rotation_rate| {
+            let rate = modulus.apply(strain_rate);
+            // In its first step the crack's band follows the rotation.
+            let Some((plane, moved)) = step.crack.as_ref().filter(|_| step.started) else {
+                return rate;
+            };
+            let spatial = kinematics.rotation * plane.normal;
+            let turning = rotation_rate * plane.normal;
+            let widening = width_rate(&increment.band, &spatial, &turning) / moved.state.width;
+            let [opening, sliding] = moved.slopes.widening;
+            let along = plane.sliding_stress(&moved.slopes.direction);
+            let per_width =
+                plane.opening * (opening / plane.across) + along * (sliding / plane.along);
+            rate + per_width * widening
+        }
+    }
+
     fn response(
         kinematics: &Biot,
         step: &Step,
@@ -206,6 +234,7 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
     type State = AnisotropicDamageState;
     const HYPERELASTIC: bool = false;
     const STEP_ERROR: f64 = 0.0;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "opened", "sheared", "left_over", "failed"];
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -277,6 +306,10 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
         (largest / self.density).sqrt() * stretch * stretch
     }
 
+    fn has_history(&self, state: &AnisotropicDamageState) -> bool {
+        state.width != 0.0
+    }
+
     fn update(
         &self,
         increment: &Increment,
@@ -302,27 +335,18 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
     ) -> Result<(Response<AnisotropicDamageState>, Tangent), MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&kinematics, increment, old)?;
-        let stiffness = self.stiffness * increment.external.scale.stiffness;
-        let modulus = match &step.crack {
-            Some((plane, moved)) => plane.modulus(&stiffness, moved),
-            None => stiffness,
-        };
-        let tangent = kinematics.turned_tangent(&step.biot_stress, |strain_rate, rotation_rate| {
-            let rate = modulus.apply(strain_rate);
-            // In its first step the crack's band follows the rotation.
-            let Some((plane, moved)) = step.crack.as_ref().filter(|_| step.started) else {
-                return rate;
-            };
-            let spatial = kinematics.rotation * plane.normal;
-            let turning = rotation_rate * plane.normal;
-            let widening = width_rate(&increment.band, &spatial, &turning) / moved.state.width;
-            let [opening, sliding] = moved.slopes.widening;
-            let along = plane.sliding_stress(&moved.slopes.direction);
-            let per_width =
-                plane.opening * (opening / plane.across) + along * (sliding / plane.along);
-            rate + per_width * widening
-        });
+        let tangent =
+            kinematics.turned_tangent(&step.biot_stress, self.rates(&kinematics, &step, increment));
         Ok((Self::response(&kinematics, &step, old), tangent))
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<AnisotropicDamageState>>, MaterialError> {
+        self.in_sheet(increment, old, with_tangent)
     }
 
     fn values(&self, state: &AnisotropicDamageState, out: &mut [f64]) {
@@ -331,64 +355,6 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
         out[2] = state.sheared;
         out[3] = state.left_over;
         out[4] = f64::from(u8::from(state.failed));
-    }
-}
-
-/// Strength, toughness and critical opening are those of the first plane.
-impl<const P: usize, N: Softening, T: Softening> Cracking for OrthotropicDamage<P, N, T> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.planes[0].opening.toughness * scale.toughness
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.planes[0].opening.strength * scale.strength
-    }
-
-    fn critical_opening(&self, scale: &Scale) -> f64 {
-        let critical = self.planes[0].opening.softening.critical();
-        critical * self.toughness(scale) / self.strength(scale)
-    }
-
-    fn band_limit(&self, scale: &Scale) -> f64 {
-        let limits = (0..P).map(|index| self.limit(index, scale));
-        limits.fold(f64::INFINITY, f64::min)
-    }
-
-    fn driving_stress(&self, f: &Matrix3<f64>, cauchy: &Sym) -> Result<Sym, MaterialError> {
-        Ok(cauchy.rotated(&Biot::new(f)?.rotation.transpose()))
-    }
-
-    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        let considered = |index: &usize| {
-            let plane = &self.planes[*index];
-            plane.normal.normalize().cross(normal).norm() <= 1e-12
-        };
-        let index = (0..P).find(considered)?;
-        Some(self.value(index, stress, scale).value)
-    }
-
-    fn associated(&self) -> bool {
-        false
-    }
-
-    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.asked(stress, scale).1
-    }
-
-    fn cracks(&self, state: &AnisotropicDamageState) -> Vec<Crack> {
-        if state.width == 0.0 {
-            return Vec::new();
-        }
-        let (index, scale) = (self.index(state), Scale::default());
-        let plane = self.plane_at(index, &scale);
-        vec![
-            self.crack_at(index, &plane, state.width, &scale)
-                .described(state),
-        ]
-    }
-
-    fn irreversible(&self, state: &AnisotropicDamageState) -> Vec<f64> {
-        state.irreversible()
     }
 }
 

@@ -3,12 +3,17 @@
 use fissure_tensor::{Band, Matrix3, Spectrum, Sym, Tangent, Vector3};
 
 use super::crack::{Demand, Moved, Slopes};
-use crate::{Biot, Isotropic};
+use super::elasticity::Elastic;
+use crate::Biot;
 
 /// `∂T/∂E` with the crack's plane and band fixed:
 /// `C − (1 − a_n) C₁₁ m⊗m − Σ_t (1 − a_t) G s_t⊗s_t`, `m = C:(n⊗n)/C₁₁`, `s_t = n⊗t + t⊗n`, with
 /// the slopes `a` of the tractions over the virgin ones. This is `C:(1 − Δ)` of eq. 6.
-pub(super) fn modulus(elastic: &Isotropic, normal: &Vector3<f64>, slopes: &Slopes) -> Tangent {
+pub(super) fn modulus<const SHEET: bool>(
+    elastic: &Elastic<SHEET>,
+    normal: &Vector3<f64>,
+    slopes: &Slopes,
+) -> Tangent {
     let opening = elastic.stress(&Sym::dyad(normal));
     let p_wave = elastic.p_wave_modulus();
     let shear = elastic.shear_modulus();
@@ -41,8 +46,8 @@ pub(super) fn tangents(
 }
 
 /// The step in which a crack starts: its normal still follows the strain, and its band the normal.
-pub(super) struct Start<'a> {
-    pub elastic: &'a Isotropic,
+pub(super) struct Start<'a, const SHEET: bool> {
+    pub elastic: &'a Elastic<SHEET>,
     pub kinematics: &'a Biot,
     pub strain: &'a Sym,
     pub band: &'a Band,
@@ -54,10 +59,14 @@ pub(super) struct Start<'a> {
     pub width: f64,
 }
 
-impl Start<'_> {
+impl<const SHEET: bool> Start<'_, SHEET> {
     /// `C:(1 − Δ)` for a crack that starts.
     pub fn tangent(&self, stress: &Sym, modulus: &Tangent) -> Tangent {
-        let spectrum = self.plane_part(self.strain).spectrum();
+        // In the order of the stresses, as the weights are.
+        let spectrum = self
+            .elastic
+            .completed(&self.plane_part(self.strain))
+            .spectrum();
         self.kinematics
             .turned_tangent(stress, |strain_rate, rotation_rate| {
                 let normal_rate = self.normal_rate(&spectrum, &self.plane_part(strain_rate));

@@ -14,9 +14,9 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         if state.width == 0.0 {
             return Tangent::zero();
         }
-        let elastic = self.elastic.scaled(scale);
+        let elastic = self.elastic_at::<false>(scale);
         let normal = Vector3::from(state.normal);
-        let (opening, sliding) = self.crack_at(scale, state).integrities(state);
+        let (opening, sliding) = self.crack_at::<false>(scale, state).integrities(state);
         let dyad = Sym::dyad(&normal);
         let mut damage = Tangent::dyad(&elastic.stress(&dyad), &dyad)
             * ((1.0 - opening) / elastic.p_wave_modulus());
@@ -40,8 +40,8 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         old: &AnisotropicDamageState,
     ) -> Result<Tangent, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step(&kinematics, increment, old)?;
-        let elastic = self.elastic.scaled(&increment.external.scale);
+        let step = self.step::<false>(&kinematics, increment, old)?;
+        let elastic = self.elastic_at::<false>(&increment.external.scale);
         let Some((moved, _)) = step.crack else {
             return Ok(Tangent::zero());
         };

@@ -1,10 +1,12 @@
 mod tangents;
 
+use super::crack::Demand;
+use super::elasticity::Elastic;
 use super::*;
 use crate::contract::Random;
 use crate::testing::assert_wave_speed;
 use crate::{Axis, Band, Control, Cracking, Leg, Path, PlaneStress, Point, PointError};
-use fissure_tensor::rotation;
+use fissure_tensor::{Sym, Vector3, rotation};
 
 const WIDTH: f64 = 0.01;
 const ELASTIC: Isotropic = Isotropic {
@@ -86,7 +88,7 @@ fn pure_modes_follow_their_lines_and_dissipate_their_toughness() -> Result<(), M
             parts,
         )?;
         let demand = Demand::new(
-            &ELASTIC,
+            &Elastic::<false>::new(&ELASTIC),
             &Vector3::x(),
             &Biot::new(&gradient(0.0, 0.6 * strain, 0.8 * strain))?.strain(),
         );

@@ -66,7 +66,8 @@ pub(super) fn fracture_energy<M: Cracking>() -> Property<M> {
 }
 
 /// Strength, toughness, critical opening and band limit are positive at any scale; a band of 0.99
-/// of the limit is accepted; 1.01 of it, zero, negative, infinite and NaN are refused.
+/// of the limit is accepted; 1.01 of it, zero, negative, infinite and NaN are refused, and so is a
+/// toughness that its scale makes infinite or NaN.
 pub(super) fn band_validation<M: Cracking>() -> Property<M> {
     Property {
         name: "P24 band validation",
@@ -101,6 +102,11 @@ pub(super) fn band_validation<M: Cracking>() -> Property<M> {
             for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
                 let refused = !accepts(width);
                 gauge.require(refused, "a zero, negative or not finite band is accepted");
+            }
+            for toughness in [f64::INFINITY, f64::NAN] {
+                let scale = Scale { toughness, ..scale };
+                let refused = law.check_band(&case.band, &scale).is_err();
+                gauge.require(refused, "a toughness scaled to no number is accepted");
             }
             Ok(gauge)
         },

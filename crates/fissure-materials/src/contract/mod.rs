@@ -26,6 +26,7 @@ mod dissipation;
 mod frames;
 mod gauge;
 mod generator;
+mod history;
 mod replay;
 mod report;
 mod runner;
@@ -188,6 +189,7 @@ fn general<M: Material>() -> Vec<Property<M>> {
     vec![
         zero_increment::determinism(),
         validation::validation(),
+        history::history(),
         zero_increment::zero_increment(),
         tangent::tangent(),
         frames::objectivity(),

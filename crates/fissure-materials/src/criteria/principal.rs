@@ -18,7 +18,8 @@
 use fissure_tensor::{Spectrum, Sym, Vector3};
 
 use super::{FailureCriterion, canonical};
-use crate::{Initiation, MaterialError, Scale, check_parameter};
+use crate::tension_shear::TensionShear as Surface;
+use crate::{Initiation, MaterialError, Onset, Scale, check_parameter};
 
 /// First principal stress against a tensile strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -196,8 +197,7 @@ impl FailureCriterion for TensionShear {
     }
 
     fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
-        let tension = normal_traction(stress, normal) / self.strength;
-        tension.max(shear_traction(stress, normal) / self.shear_strength) - 1.0
+        self.surface().along(stress, normal)
     }
 
     #[inline]
@@ -207,17 +207,16 @@ impl FailureCriterion for TensionShear {
     }
 
     fn initiation(&self, stress: &Sym) -> Initiation {
-        let spectrum = stress.spectrum();
-        let tension = spectrum.values[0] / self.strength;
-        let shear = 0.5 * (spectrum.values[0] - spectrum.values[2]) / self.shear_strength;
-        let normal = if tension >= shear {
-            spectrum.vectors[0]
-        } else {
-            at_45_degrees(&spectrum)
-        };
-        Initiation {
-            value: tension.max(shear) - 1.0,
-            normal,
+        self.surface().asked(stress).initiation
+    }
+}
+
+impl TensionShear {
+    fn surface(&self) -> Surface {
+        Surface {
+            onset: Onset::TensionShear,
+            tensile: self.strength,
+            shear: self.shear_strength,
         }
     }
 }

@@ -97,7 +97,8 @@ fn a_failed_crack_opens_freely_and_carries_contact() -> Result<(), MaterialError
     let shut = Matrix3::new(0.999, 2e-4, 0.0, 0.0, 1.0001, 1e-4, 0.0, 0.0, 0.9998);
     let undamaged = through(&[shut])?;
     let contact = through(&[failed, shut])?;
-    assert!(contact.state.opening == 0.0 && contact.stress == undamaged.stress);
+    let gap = (contact.stress - undamaged.stress).max_abs();
+    assert!(contact.state.opening == 0.0 && gap < 4e-15 * LAW.elastic.young);
     let reopened = through(&[failed, shut, along_x(1e-4)])?;
     assert!(reopened.stress.xx().abs() < 1e-15 * LAW.elastic.young && reopened.dissipated == 0.0);
     // Free: exactly the strain is opening.

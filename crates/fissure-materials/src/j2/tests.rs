@@ -1,6 +1,7 @@
 use super::*;
 use crate::contract::{self, Random};
 use crate::hardening::{Linear, Table, Voce};
+use crate::localization::{Directions, localization_of};
 use crate::testing::{assert_wave_speed, gradients, tangent_error};
 use crate::{Axis, Band, Hencky, Path, PlaneStress, Point, PointError};
 
@@ -310,4 +311,67 @@ fn parameters_out_of_range_are_refused() {
         },
         "yield_stress",
     );
+}
+
+/// A yield stress that falls, as no curve of the library does.
+#[derive(Clone, Copy, Debug)]
+struct Falling {
+    modulus: f64,
+}
+
+impl Hardening for Falling {
+    fn stress(&self, plastic_strain: f64) -> f64 {
+        300e6 - self.modulus * plastic_strain
+    }
+
+    fn slope(&self, _: f64) -> f64 {
+        -self.modulus
+    }
+
+    fn work(&self, plastic_strain: f64) -> f64 {
+        (300e6 - 0.5 * self.modulus * plastic_strain) * plastic_strain
+    }
+}
+
+/// P21: the plane across which softening localises first, and no sooner than theory says. With the
+/// deviator `s1 ≥ s2 ≥ s3` its normal has `n1² = (s1 + ν s2)/(s1 − s3)`, and the modulus is
+/// `H = −E (s2/q)² 9/4` with the Mises stress `q`, but for terms of the order of the stress and of the
+/// step beyond yield
+/// [Ottosen and Runesson 1991, Int. J. Solids Struct. 27, 401].
+#[test]
+fn softening_localises_across_the_analytic_plane() -> Result<(), MaterialError> {
+    let mut random = Random::new(21);
+    for [s1, s2, s3] in [[3.0, -0.5, -2.5], [2.2, 0.3, -2.5], [2.0, -0.8, -1.2]] {
+        let axes = random.rotation();
+        let deviator = Sym::diagonal(s1, s2, s3).rotated(&axes);
+        let mises = (1.5 * deviator.dot(&deviator)).sqrt();
+        let found = |modulus: f64| {
+            let law = J2 {
+                elastic: STEEL,
+                hardening: Falling { modulus },
+            };
+            let strain = deviator * (1.001 * 300e6 / (2.0 * STEEL.shear_modulus() * mises));
+            let increment = Increment::to(Matrix3::identity() + strain.to_matrix());
+            localization_of(&law, &increment, &law.initial(), Directions::Space)
+        };
+        let (mut low, mut high) = (0.0, STEEL.young);
+        assert!(!found(low)?.is_lost(0.0) && found(high)?.is_lost(0.0));
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if found(middle)?.is_lost(0.0) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let modulus = STEEL.young * (s2 / mises).powi(2) * 9.0 / 4.0;
+        assert!((high - modulus).abs() < 3.0 * 300e6, "{high:e} {modulus:e}");
+        let normal = axes.transpose() * found(high)?.normal;
+        let squared = (s1 + STEEL.poisson * s2) / (s1 - s3);
+        let off = normal.x.abs().acos() - squared.sqrt().acos();
+        let off = off.abs().max(normal.y.abs().asin()).to_degrees();
+        println!("{s1} {s2} {s3}: modulus {high:e} of {modulus:e} Pa, {off}° off");
+        assert!(off < 0.5, "{off}°");
+    }
+    Ok(())
 }

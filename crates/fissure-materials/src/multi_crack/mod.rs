@@ -52,6 +52,7 @@ pub use state::{MultiCrackState, Plane};
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
     Scale, check_parameter,
+    error::{check_below, check_scaled_toughness},
     material::{DIFFERENCE_STEP, difference_tangent},
     sound::sound,
 };
@@ -112,15 +113,8 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
     }
 
     fn check_width(&self, width: f64) -> Result<(), MaterialError> {
-        let limit = self.limit();
-        if width > 0.0 && width < limit {
-            return Ok(());
-        }
-        Err(MaterialError::Band {
-            law: NAME,
-            width,
-            limit,
-        })
+        check_scaled_toughness(NAME, self.decohesion.toughness())?;
+        check_below(NAME, width, self.limit())
     }
 
     /// `sin²` of the least angle between planes over a band of this width for which the return of
@@ -258,8 +252,8 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
     /// `∂T/∂E`, if it is at hand.
     fn modulus(&self, step: &Step<N>, old: &MultiCrackState<N>) -> Option<Tangent> {
         let planes = step.state.planes();
-        if planes.len() != old.planes().len() || self.planes == Planes::Rotating {
-            return planes.is_empty().then(|| self.elastic.stiffness());
+        if !self.has_own_tangent(old, &step.state) {
+            return None;
         }
         let mut rates = [[Sym::ZERO; 3]; N];
         for ((rate, start), plane) in rates.iter_mut().zip(step.start.planes()).zip(planes) {
@@ -285,6 +279,7 @@ fn turn(planes: &mut [Plane], strain: &Sym) {
 
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
+    const SPARSE: bool = true;
     const NAMES: &'static [&'static str] = &["planes", "failed_planes", "opening"];
 
     fn check(&self) -> Result<(), MaterialError> {
@@ -339,6 +334,10 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
     }
 
+    fn has_history(&self, state: &Self::State) -> bool {
+        !state.planes().is_empty()
+    }
+
     fn update(
         &self,
         increment: &Increment,
@@ -365,6 +364,11 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
             Some(modulus) => Ok(step.kinematics.spatial_tangent(&step.biot_stress, &modulus)),
             None => difference_tangent(self, increment, old, DIFFERENCE_STEP),
         }
+    }
+
+    fn has_own_tangent(&self, old: &Self::State, new: &Self::State) -> bool {
+        let kept = new.planes().len() == old.planes().len() && self.planes != Planes::Rotating;
+        new.planes().is_empty() || kept
     }
 
     fn values(&self, state: &Self::State, out: &mut [f64]) {

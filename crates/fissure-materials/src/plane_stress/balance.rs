@@ -20,12 +20,14 @@ pub(super) struct Solved<S> {
 }
 
 impl<M: Material> PlaneStress<M> {
-    /// P-wave modulus of the undeformed law, Pa: sets what counts as round-off.
+    /// P-wave modulus of the undeformed law, Pa: sets what counts as round-off. Without its last digits:
+    /// the root in a wave speed rounds by the unit, and the answer is not to.
     pub(super) fn modulus(&self, scale: &Scale) -> f64 {
         let speed = self
             .0
             .wave_speed(&Matrix3::identity(), &self.0.initial(), scale);
-        self.0.density() * speed * speed
+        let modulus = self.0.density() * speed * speed;
+        f64::from_bits(modulus.to_bits() & !0xffff)
     }
 
     /// The law's answer at the stretch that leaves no out-of-plane stress.
@@ -130,7 +132,7 @@ impl<M: Material> PlaneStress<M> {
 }
 
 /// The in-plane part of a deformation gradient, and `F₃₃ = 1 + thickening`.
-pub(super) fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
+pub(crate) fn with_thickness(f: &Matrix3<f64>, thickening: f64) -> Matrix3<f64> {
     Matrix3::new(
         f.m11,
         f.m12,

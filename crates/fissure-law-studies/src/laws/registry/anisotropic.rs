@@ -44,7 +44,7 @@ pub(super) const ANISOTROPIC: Entry = Entry {
         SHEAR_TOUGHNESS,
         FRICTION,
     ],
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| {
         let law = AnisotropicDamage {
             friction: values.number("friction"),
@@ -58,7 +58,7 @@ pub(super) const IN_PLANE: Entry = Entry {
     name: "anisotropic-damage-in-plane",
     about: "the same on planes that contain the z axis",
     parameters: PARAMETERS,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| cracking(anisotropic(values, Onset::InPlane), space),
 };
 
@@ -66,7 +66,7 @@ pub(super) const ELLIPTICAL: Entry = Entry {
     name: "elliptical-damage",
     about: "the same with two shear damages on an ellipse, not objective, for comparison",
     parameters: PARAMETERS,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| {
         let law: EllipticalDamage = EllipticalDamage::new(anisotropic(values, Onset::TensionShear));
         cracking(law, space)
@@ -77,7 +77,7 @@ pub(super) const STEPPED: Entry = Entry {
     name: "stepped-circle-damage",
     about: "the same on a circle advanced by increments, for comparison",
     parameters: PARAMETERS,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| {
         let law: SteppedCircleDamage =
             SteppedCircleDamage::new(anisotropic(values, Onset::TensionShear));
@@ -109,7 +109,7 @@ pub(super) const ORTHOTROPIC: Entry = Entry {
             1.5e3,
         ),
     ],
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| {
         let elastic = orthotropic(values);
         let mode = |strength: &str, toughness: &str| Mode {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::contract::{self, Contract, Random};
-use crate::{AnisotropicDamage, Isotropic, Onset};
+use crate::{AnisotropicDamage, Isotropic, Onset, PlaneStress};
 use fissure_tensor::{Matrix6, rotation};
 
 const WIDTH: f64 = 0.01;
@@ -172,4 +172,54 @@ fn it_passes_the_battery() {
     .err()
     .map(|v| v.to_string());
     assert_eq!(message.unwrap_or_default(), "");
+}
+
+#[test]
+fn it_passes_the_battery_in_plane_stress() {
+    let contract = Contract {
+        samples: 96,
+        step_error_steps: 200,
+        ..Contract::default()
+    };
+    let smooth = PlaneStress(OrthotropicDamage {
+        mixed: MixedMode::Uncoupled,
+        ..on_planes(wood(), [Vector3::y()])
+    });
+    let message = contract.check_cracking(&smooth).err();
+    assert_eq!(message.map(|v| v.to_string()).unwrap_or_default(), "");
+    let three = on_planes(wood(), [Vector3::x(), Vector3::y(), Vector3::z()]);
+    let message = contract.check(&PlaneStress(three)).err();
+    assert_eq!(message.map(|v| v.to_string()).unwrap_or_default(), "");
+}
+
+/// In closed form the sheet is where the solid has no stress across.
+#[test]
+fn a_sheet_is_a_solid_without_stress_across() -> Result<(), MaterialError> {
+    let law = on_planes(wood(), [Vector3::x(), Vector3::y(), Vector3::z()]);
+    let sheet = PlaneStress(law);
+    let (mut state, mut solid) = (sheet.initial(), law.initial());
+    let (mut f_old, mut cracked) = (Matrix3::identity(), false);
+    for step in 1..=200 {
+        let strain = 4e-5 * f64::from(step);
+        let turn = rotation(&Vector3::z(), 0.01 * f64::from(step));
+        let stretch = Sym::new(strain, -0.4 * strain, 0.0, 0.0, 0.0, 0.3 * strain);
+        let f = turn * (Matrix3::identity() + stretch.to_matrix());
+        let flat = sheet.update(&to(f_old, f), &state)?;
+        let across = flat.state.thickening;
+        let whole = |f: &Matrix3<f64>, across: f64| {
+            let mut f = *f;
+            f.m33 = 1.0 + across;
+            f
+        };
+        let step = to(whole(&f_old, state.thickening), whole(&f, across));
+        let full = law.update(&step, &solid)?;
+        let gap = (full.stress - flat.stress).max_abs();
+        // The sheet fails where it does; the solid's way there may bend.
+        assert!(gap <= 1e-9 * 3e6, "{gap:e} at {strain:e}");
+        assert!((full.stored - flat.stored).abs() <= 1e-9 * (1.0 + flat.stored));
+        cracked |= full.state.width > 0.0;
+        (state, solid, f_old) = (flat.state, full.state, f);
+    }
+    assert!(cracked);
+    Ok(())
 }

@@ -1,6 +1,7 @@
 //! The public battery. Which property does not apply to which variant is said at the test.
 
 use super::*;
+use crate::PlaneStress;
 use crate::contract::{Contract, Violation};
 
 fn contract(samples: usize) -> Contract {
@@ -73,4 +74,16 @@ fn geological_flow_passes_but_for_changes_of_mode() {
     for friction in [None, Some(0.6)] {
         passes_up_to_continuity(&geological::<1>(friction, Planes::Fixed));
     }
+}
+
+/// In plane stress too, where the first step of a plane takes the differences of the whole.
+#[test]
+fn planes_pass_in_plane_stress() {
+    for (unloading, shear) in CHOICES {
+        let law = PlaneStress(law::<1>(unloading, shear, Planes::Fixed));
+        assert_eq!(message(contract(40).check_cracking(&law)), "", "{shear:?}");
+    }
+    let free = Shear::Coulomb(0.0);
+    let law = PlaneStress(law::<6>(Unloading::Secant, free, Planes::Multiple(None)));
+    assert_eq!(message(contract(32).check_cracking(&law)), "");
 }
