@@ -9,6 +9,8 @@ use fissure_diagnostics::fracture::{
     Annulus, FaceJump, FaceLoad, NearTip, PlaneElastic, TipField, contours, interaction,
     j_integral, opening_intensity,
 };
+use fissure_scene::Polyline;
+use fissure_tensor::Matrix3;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::PI;
 
@@ -315,6 +317,42 @@ fn pressure_on_the_faces() {
     assert!(errors[0] < 5e-4 && errors[1] < 5e-4, "{errors:?}");
     assert!(found.k2.abs() < 1e-6 * k);
     assert!(relative(bare.k1, k) > 0.05);
+}
+
+/// Strains that alternate within the cells: K does not see them, J does, means over cells take them
+/// out.
+#[test]
+fn alternating_strains_and_means_over_cells() {
+    let (h, k) = (1e-3, [1.2e3, -0.5e3]);
+    let lattice = Lattice::new(h, 6.0 * h);
+    let frame = lattice.frame();
+    let mut field = lattice.field(&GLASS, &williams(GLASS, k, 2e3));
+    let odd = |x: f64| 1.0 - 2.0 * (2.0 * x / h).floor().rem_euclid(2.0);
+    for sample in &mut field.samples {
+        let x = sample.position - frame.position;
+        let factor = 1.0 + 0.2 * odd(x.x) * odd(x.y);
+        let strain = sample.deformation_gradient - Matrix3::identity();
+        sample.deformation_gradient = Matrix3::identity() + strain * factor;
+        sample.stress = sample.stress * factor;
+        sample.stored *= factor * factor;
+    }
+    let crack = Polyline::new(vec![frame.position - frame.direction, frame.position]).unwrap();
+    let means = field.averaged(&frame.position, h, &crack, &GLASS).unwrap();
+    let measure = |field: &TipField| {
+        let ring = ring(2.0 * h, 6.0 * h);
+        let found = interaction(field, &frame, &ring, &GLASS).unwrap();
+        let j = j_integral(field, &frame, &ring).unwrap();
+        let j = relative(j, GLASS.energy_release(k[0], k[1]));
+        (relative(found.k1, k[0]).max(relative(found.k2, k[1])), j)
+    };
+    let ((raw_k, raw_j), (k, j)) = (measure(&field), measure(&means));
+    assert!(raw_k < 1e-3 && raw_j > 0.03, "{raw_k:e} {raw_j:e}");
+    assert!(k < 5e-3 && j < 4e-3, "{k:e} {j:e}");
+    assert!(
+        field
+            .averaged(&frame.position, 0.0, &crack, &GLASS)
+            .is_err()
+    );
 }
 
 #[test]

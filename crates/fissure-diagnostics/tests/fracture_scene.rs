@@ -1,5 +1,7 @@
 //! Fracture measures of a scene: the exact field of Griffith's crack on a body's particles.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 mod exact;
 
 use exact::{GLASS, griffith};
