@@ -6,8 +6,8 @@ use exact::{GLASS, Lattice, add, griffith, williams};
 use fissure_diagnostics::MeasureError;
 use fissure_diagnostics::fit_slope;
 use fissure_diagnostics::fracture::{
-    Annulus, FaceJump, FaceLoad, NearTip, PlaneElastic, TipField, contours, interaction,
-    j_integral, opening_intensity,
+    Annulus, FaceJump, FaceLoad, NearTip, PlaneElastic, TipField, apparent_tip, contours,
+    interaction, j_integral, opening_intensity,
 };
 use fissure_scene::Polyline;
 use fissure_tensor::Matrix3;
@@ -370,16 +370,32 @@ fn intensities_from_the_opening() {
             }
         })
         .collect();
-    let found = opening_intensity(&jumps, &GLASS).unwrap();
+    let found = opening_intensity(&jumps, 0.0, &GLASS).unwrap();
     assert!(relative(found.k1, k) < 1e-3, "{}", found.k1 / k);
     assert!(relative(found.k2, -0.5 * k) < 1e-3);
+    // The same faces seen from a place that is not their tip.
+    let shift = 0.4e-3;
+    let mut shifted = jumps.clone();
+    shifted.iter_mut().for_each(|jump| jump.distance -= shift);
+    let ahead = apparent_tip(&shifted).unwrap();
+    assert!((ahead - shift).abs() < 1e-9, "{ahead}");
+    let found = opening_intensity(&shifted, ahead, &GLASS).unwrap();
+    assert!(relative(found.k1, k) < 1e-3 && relative(found.k2, -0.5 * k) < 1e-3);
+    assert!(opening_intensity(&shifted, 0.0, &GLASS).unwrap().k1 > 1.05 * k);
+
     for bad in [
         &jumps[..1],
         &[jumps[0], jumps[0]],
         &[FaceJump::default(), jumps[0]],
     ] {
-        let refused = opening_intensity(bad, &GLASS);
+        let refused = opening_intensity(bad, 0.0, &GLASS);
         assert!(matches!(refused, Err(MeasureError::Parameter { .. })));
+    }
+    let refused = apparent_tip(&jumps[..2]);
+    assert!(matches!(refused, Err(MeasureError::Parameter { .. })));
+    for bad in [[jumps[0]; 3], [FaceJump::default(); 3]] {
+        let refused = apparent_tip(&bad);
+        assert!(matches!(refused, Err(MeasureError::NotFinite { .. })));
     }
 }
 

@@ -257,7 +257,7 @@ fn opening_profiles_from_both_tips() {
         let middle = profile[20];
         assert!((middle.opening - opening(&Vector2::zeros())).abs() < 1e-12);
         assert!((middle.sliding - middle.opening / 3.0).abs() < 1e-12);
-        let found = opening_intensity(&profile[2..7], &GLASS).unwrap();
+        let found = opening_intensity(&profile[2..7], 0.0, &GLASS).unwrap();
         assert!((found.k1 / k - 1.0).abs() < 2e-3, "{}", found.k1 / k);
         assert!((found.k2 / k - 1.0 / 3.0).abs() < 2e-3);
     }

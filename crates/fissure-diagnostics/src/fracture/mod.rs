@@ -5,7 +5,7 @@
 //! | [`TipField`], [`Rates`] | the particles around a tip, what they know there |
 //! | [`j_integral`], [`contours`] | the energy release rate, and how far it depends on the domain |
 //! | [`interaction`] | K_I and K_II |
-//! | [`opening_profile`], [`opening_intensity`] | opening and sliding of the faces, K from them |
+//! | [`opening_profile`], [`apparent_tip`], [`opening_intensity`] | opening and sliding of the faces, the tip and K from them |
 //! | [`energy_release`] | the energy release rate from two ledgers |
 //! | [`hoop_angle`], [`EnergyReleaseGrowth`] | where a crack goes, and when |
 //! | [`CrackHistory`] | length, onset and speed of a crack |
@@ -33,5 +33,5 @@ pub use history::CrackHistory;
 pub use interaction::{Intensity, interaction};
 pub use modes::{FractureEnergy, volume_integral};
 pub use near_tip::NearTip;
-pub use opening::{FaceJump, opening_intensity, opening_profile};
+pub use opening::{FaceJump, apparent_tip, opening_intensity, opening_profile};
 pub use release::energy_release;
