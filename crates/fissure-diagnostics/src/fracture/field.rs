@@ -30,6 +30,17 @@ impl TipFrame {
         }
     }
 
+    /// The tip at an end of a crack, with the direction of the straight way to it from the point at
+    /// `distance` (m) behind it: of a crack with kinks, its mean direction.
+    pub fn over(crack: &CrackLine, end: End, distance: f64) -> Self {
+        let own = Self::of(crack, end);
+        let way = own.position - crack.behind(end, distance).0;
+        Self {
+            direction: way.try_normalize(0.0).unwrap_or(own.direction),
+            ..own
+        }
+    }
+
     /// The axes of the tip as columns: along the crack, and to its left.
     pub fn axes(&self) -> Matrix2<f64> {
         let t = self.direction;

@@ -28,7 +28,7 @@ pub use domain::{Annulus, Contours, contours, j_integral};
 pub use elastic::PlaneElastic;
 pub use extraction::{CrackExtraction, ExtractedCrack, ExtractedCracks};
 pub use field::{FaceLoad, Rates, TipField, TipFrame, TipSample};
-pub use growth::{EnergyReleaseGrowth, Path, hoop_angle};
+pub use growth::{EnergyReleaseGrowth, GrowthDirection, hoop_angle};
 pub use history::CrackHistory;
 pub use interaction::{Intensity, interaction};
 pub use modes::{FractureEnergy, volume_integral};
