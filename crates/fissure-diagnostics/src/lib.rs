@@ -11,6 +11,7 @@
 //! | [`FailedZone`] | how large the failed part of a body is |
 //! | [`LoadDisplacement`], [`LoadCurve`] | load over displacement, its work and its peak |
 //! | [`curve_error`], [`fit_slope`] | how far a curve is from the exact one, and the order of convergence |
+//! | [`fracture`] | J and K of a crack tip, where and when it grows, cracks among failed particles |
 //! | [`state_hash`] | whether two scenes are the same to the last bit |
 //!
 //! All is in SI units. Histories are no part of a checkpoint: they go on from where they are given.

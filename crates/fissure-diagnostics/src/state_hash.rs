@@ -2,7 +2,7 @@
 
 use fissure_scene::{Body, Scene};
 
-/// Hash of the present state of all particles of a scene.
+/// Hash of the present state of all particles and cracks of a scene.
 ///
 /// FNV-1a of 64 bits (Fowler, Noll and Vo) over, for each body in the scene's order,
 /// the number of its particles and, in ascending order of the particles' ids: id, mass, reference
@@ -32,6 +32,13 @@ pub fn state_hash<const D: usize>(scene: &Scene<D>) -> u64 {
     let mut hash = Fnv::default();
     for body in scene.bodies() {
         hash_body(&mut hash, body);
+    }
+    for crack in scene.cracks() {
+        hash.word(crack.line().points().len() as u64);
+        for (x, jump) in crack.line().points().iter().zip(crack.jump()) {
+            hash.numbers(x.as_slice());
+            hash.numbers(jump.as_slice());
+        }
     }
     hash.0
 }

@@ -6,9 +6,11 @@ use exact::{GLASS, Lattice, add, griffith, williams};
 use fissure_diagnostics::MeasureError;
 use fissure_diagnostics::fit_slope;
 use fissure_diagnostics::fracture::{
-    Annulus, FaceJump, FaceLoad, NearTip, PlaneElastic, TipField, contours, interaction,
-    j_integral, opening_intensity,
+    Annulus, FaceJump, FaceLoad, NearTip, PlaneElastic, TipField, apparent_tip, contours,
+    interaction, j_integral, opening_intensity,
 };
+use fissure_scene::Polyline;
+use fissure_tensor::Matrix3;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::PI;
 
@@ -317,6 +319,42 @@ fn pressure_on_the_faces() {
     assert!(relative(bare.k1, k) > 0.05);
 }
 
+/// Strains that alternate within the cells: K does not see them, J does, means over cells take them
+/// out.
+#[test]
+fn alternating_strains_and_means_over_cells() {
+    let (h, k) = (1e-3, [1.2e3, -0.5e3]);
+    let lattice = Lattice::new(h, 6.0 * h);
+    let frame = lattice.frame();
+    let mut field = lattice.field(&GLASS, &williams(GLASS, k, 2e3));
+    let odd = |x: f64| 1.0 - 2.0 * (2.0 * x / h).floor().rem_euclid(2.0);
+    for sample in &mut field.samples {
+        let x = sample.position - frame.position;
+        let factor = 1.0 + 0.2 * odd(x.x) * odd(x.y);
+        let strain = sample.deformation_gradient - Matrix3::identity();
+        sample.deformation_gradient = Matrix3::identity() + strain * factor;
+        sample.stress = sample.stress * factor;
+        sample.stored *= factor * factor;
+    }
+    let crack = Polyline::new(vec![frame.position - frame.direction, frame.position]).unwrap();
+    let means = field.averaged(&frame.position, h, &crack, &GLASS).unwrap();
+    let measure = |field: &TipField| {
+        let ring = ring(2.0 * h, 6.0 * h);
+        let found = interaction(field, &frame, &ring, &GLASS).unwrap();
+        let j = j_integral(field, &frame, &ring).unwrap();
+        let j = relative(j, GLASS.energy_release(k[0], k[1]));
+        (relative(found.k1, k[0]).max(relative(found.k2, k[1])), j)
+    };
+    let ((raw_k, raw_j), (k, j)) = (measure(&field), measure(&means));
+    assert!(raw_k < 1e-3 && raw_j > 0.03, "{raw_k:e} {raw_j:e}");
+    assert!(k < 5e-3 && j < 4e-3, "{k:e} {j:e}");
+    assert!(
+        field
+            .averaged(&frame.position, 0.0, &crack, &GLASS)
+            .is_err()
+    );
+}
+
 #[test]
 fn intensities_from_the_opening() {
     let (a, sigma) = (0.025, 1e7);
@@ -332,16 +370,32 @@ fn intensities_from_the_opening() {
             }
         })
         .collect();
-    let found = opening_intensity(&jumps, &GLASS).unwrap();
+    let found = opening_intensity(&jumps, 0.0, &GLASS).unwrap();
     assert!(relative(found.k1, k) < 1e-3, "{}", found.k1 / k);
     assert!(relative(found.k2, -0.5 * k) < 1e-3);
+    // The same faces seen from a place that is not their tip.
+    let shift = 0.4e-3;
+    let mut shifted = jumps.clone();
+    shifted.iter_mut().for_each(|jump| jump.distance -= shift);
+    let ahead = apparent_tip(&shifted).unwrap();
+    assert!((ahead - shift).abs() < 1e-9, "{ahead}");
+    let found = opening_intensity(&shifted, ahead, &GLASS).unwrap();
+    assert!(relative(found.k1, k) < 1e-3 && relative(found.k2, -0.5 * k) < 1e-3);
+    assert!(opening_intensity(&shifted, 0.0, &GLASS).unwrap().k1 > 1.05 * k);
+
     for bad in [
         &jumps[..1],
         &[jumps[0], jumps[0]],
         &[FaceJump::default(), jumps[0]],
     ] {
-        let refused = opening_intensity(bad, &GLASS);
+        let refused = opening_intensity(bad, 0.0, &GLASS);
         assert!(matches!(refused, Err(MeasureError::Parameter { .. })));
+    }
+    let refused = apparent_tip(&jumps[..2]);
+    assert!(matches!(refused, Err(MeasureError::Parameter { .. })));
+    for bad in [[jumps[0]; 3], [FaceJump::default(); 3]] {
+        let refused = apparent_tip(&bad);
+        assert!(matches!(refused, Err(MeasureError::NotFinite { .. })));
     }
 }
 

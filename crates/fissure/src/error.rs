@@ -32,6 +32,12 @@ pub enum Error {
     /// A scene refused what it was given.
     #[error(transparent)]
     Scene(#[from] fissure_scene::SceneError),
+    /// A crack was refused.
+    #[error(transparent)]
+    Crack(#[from] fissure_scene::CrackError),
+    /// Cracks could not grow.
+    #[error(transparent)]
+    Growth(#[from] fissure_scene::GrowthError),
     /// A step failed.
     #[error(transparent)]
     Solve(#[from] fissure_scene::SolveError),

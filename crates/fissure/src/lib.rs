@@ -54,7 +54,7 @@ pub mod prelude {
     pub use crate::Error;
     pub use fissure_diagnostics::{
         EnergyBalance, EnergyHistory, FailedZone, LoadCurve, LoadDisplacement, Record,
-        SectionForce, curve_error, fit_slope, section_force, state_hash,
+        SectionForce, curve_error, fit_slope, fracture, section_force, state_hash,
     };
     pub use fissure_grid::{Grid, Shape, shape};
     pub use fissure_io::checkpoint::{AutoCheckpoint, Checkpoint};
@@ -99,4 +99,8 @@ mod pages {
     mod strength_fields {}
     #[doc = include_str!("../../../docs/choose-a-solver.md")]
     mod choose_a_solver {}
+    #[doc = include_str!("../../../docs/cracks.md")]
+    mod cracks {}
+    #[doc = include_str!("../../../docs/fracture-diagnostics.md")]
+    mod fracture_diagnostics {}
 }

@@ -276,3 +276,107 @@ impl Neighbours {
         (last.map_or(from, |(i, _)| *i), ways)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    const SPACING: f64 = 0.5;
+
+    fn extraction(least: usize) -> CrackExtraction<'static> {
+        CrackExtraction {
+            body: "",
+            value: "",
+            failed: 1.0,
+            partial: 0.0,
+            reach: 1.6 * SPACING,
+            least,
+        }
+    }
+
+    /// Points of a lattice at an angle where `inside` of its own axes holds.
+    fn lattice(degrees: f64, inside: impl Fn(f64, f64) -> bool) -> Vec<Point> {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let rows = (-60..60).flat_map(|j| (-60..60).map(move |i| (i, j)));
+        let places = rows.map(|(i, j)| (f64::from(i) + 0.5, f64::from(j) + 0.5));
+        let places = places.map(|(x, y)| (x * SPACING, y * SPACING));
+        places
+            .filter(|(x, y)| inside(*x, *y))
+            .map(|(x, y)| Point {
+                x: Vector2::new(cosine * x - sine * y, sine * x + cosine * y),
+                area: SPACING * SPACING,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_straight_crack_at_any_angle() {
+        for degrees in [0.0f64, 30.0, 90.0, -50.0] {
+            let failed = lattice(degrees, |x, y| x.abs() < 10.0 && y.abs() < 0.5);
+            let wake = |x: f64, y: f64| x.abs() < 10.0 && y.abs() > 0.5 && y.abs() < 1.0;
+            let found = extraction(2).cracks(&failed, &lattice(degrees, wake));
+            assert_eq!(found.cracks.len(), 1);
+            let crack = &found.cracks[0];
+            assert_eq!(crack.particles, 80);
+            assert!(
+                (crack.line.length() - 20.0).abs() < 0.5,
+                "{degrees}: {crack:?}"
+            );
+            assert!((crack.rows - 2.0).abs() < 0.06, "{degrees}: {}", crack.rows);
+            assert!((crack.partial_rows - 2.0).abs() < 0.06);
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let along = crack.normal.dot(&Vector2::new(cosine, sine)).abs();
+            assert!(along < 0.03, "{degrees}: {along}");
+        }
+    }
+
+    /// Rows of a lattice that are cut along the diagonal are one crack, not many.
+    #[test]
+    fn a_crack_across_the_lattice() {
+        let failed = lattice(0.0, |x, y| (y - 0.7 * x).abs() < 0.5 && x.abs() < 8.0);
+        let found = extraction(2).cracks(&failed, &[]);
+        assert_eq!(found.cracks.len(), 1);
+        let exact = 16.0 * (1.0f64 + 0.49).sqrt();
+        let length = found.cracks[0].line.length();
+        assert!((length / exact - 1.0).abs() < 0.05, "{length} for {exact}");
+    }
+
+    #[test]
+    fn a_bent_crack() {
+        let radius = 9.0;
+        let failed = lattice(0.0, |x, y| (x.hypot(y) - radius).abs() < 0.55 && y > -3.0);
+        let found = extraction(2).cracks(&failed, &[]);
+        assert_eq!(found.cracks.len(), 1);
+        let line = &found.cracks[0].line;
+        let exact = radius * (PI + 2.0 * (3.0 / radius).asin());
+        assert!(
+            (line.length() / exact - 1.0).abs() < 0.05,
+            "{}",
+            line.length()
+        );
+        let off = |p: &Vector2<f64>| (p.norm() - radius).abs();
+        assert!(line.points().iter().map(off).fold(0.0, f64::max) < SPACING);
+    }
+
+    #[test]
+    fn several_cracks_and_single_particles() {
+        let failed = lattice(0.0, |x, y| {
+            let rows = (y.abs() < 0.3 || (y - 5.0).abs() < 0.3) && x.abs() < 4.0;
+            rows || (y > 20.0 && y < 20.5 && x > 0.0 && x < 0.5)
+        });
+        let found = extraction(2).cracks(&failed, &[]);
+        assert_eq!(found.cracks.len(), 2);
+        assert!((found.density(10.0).unwrap() - 0.2).abs() < 1e-15);
+        assert!((found.length() - 16.0).abs() < 1.0, "{}", found.length());
+        assert!(found.density(0.0).is_err());
+        let all = extraction(1).cracks(&failed, &[]);
+        assert_eq!(all.cracks.len(), 3);
+        assert!((all.cracks[2].line.length() - SPACING).abs() < 0.01 * SPACING);
+        assert_eq!(
+            extraction(1).cracks(&[], &failed),
+            ExtractedCracks::default()
+        );
+    }
+}

@@ -1,6 +1,6 @@
 //! Growth by energy release: `J ≥ G_c`, straight on or where the hoop stress is largest.
 
-use fissure_scene::{End, Growth, GrowthCriterion, GrowthError, Scene};
+use fissure_scene::{CrackLine, End, Growth, GrowthCriterion, GrowthError, Scene};
 use nalgebra::Vector2;
 
 use super::{Annulus, Intensity, PlaneElastic, Rates, TipField, TipFrame, interaction, j_integral};
@@ -31,7 +31,7 @@ pub fn hoop_angle(k: &Intensity) -> f64 {
 
 /// Where a crack goes when it goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Path {
+pub enum GrowthDirection {
     /// Straight on.
     SelfSimilar,
     /// Where the hoop stress is largest, [`hoop_angle`].
@@ -57,7 +57,7 @@ pub struct EnergyReleaseGrowth {
     /// How far a tip goes at a time, m.
     pub increment: f64,
     /// Where it goes.
-    pub path: Path,
+    pub direction: GrowthDirection,
     /// Inertia in J: rates of change come from two consecutive questions at different times
     /// ([`Rates`]), so a tip is first judged at the second.
     pub inertia: bool,
@@ -77,7 +77,7 @@ impl EnergyReleaseGrowth {
         toughness: f64,
         domain: Annulus,
         increment: f64,
-        path: Path,
+        direction: GrowthDirection,
     ) -> Result<Self, MeasureError> {
         elastic.check()?;
         domain.check()?;
@@ -89,7 +89,7 @@ impl EnergyReleaseGrowth {
             toughness,
             domain,
             increment,
-            path,
+            direction,
             inertia: false,
             rates: Rates::default(),
         })
@@ -100,6 +100,13 @@ impl EnergyReleaseGrowth {
     pub fn with_inertia(mut self) -> Self {
         self.inertia = true;
         self
+    }
+
+    /// The tip with the mean direction of the crack over the domain's middle radius. The direction of
+    /// a last piece that is shorter than that would be answered by the next one turning back.
+    fn frame(&self, crack: &CrackLine, end: End) -> TipFrame {
+        let middle = 0.5 * (self.domain.inner + self.domain.outer);
+        TipFrame::over(crack, end, middle)
     }
 
     /// Energy release rate (J/m²) and intensities of a tip over the largest domain that fits;
@@ -120,7 +127,7 @@ impl EnergyReleaseGrowth {
             value: crack as f64,
             permitted: "below the number of cracks in the scene",
         })?;
-        let tip = TipFrame::of(growing, end);
+        let tip = self.frame(growing, end);
         let lines = scene.cracks().iter().enumerate();
         let others = lines.filter(|(other, _)| *other != crack);
         let room = others
@@ -175,10 +182,10 @@ impl GrowthCriterion for EnergyReleaseGrowth {
         if !(j >= self.toughness) {
             return Ok(None);
         }
-        let tip = TipFrame::of(&scene.cracks()[crack], end);
-        let angle = match self.path {
-            Path::SelfSimilar => 0.0,
-            Path::MaximumHoop => hoop_angle(&k),
+        let tip = self.frame(&scene.cracks()[crack], end);
+        let angle = match self.direction {
+            GrowthDirection::SelfSimilar => 0.0,
+            GrowthDirection::MaximumHoop => hoop_angle(&k),
         };
         let (sine, cosine) = angle.sin_cos();
         Ok(Some(Growth {
