@@ -7,11 +7,9 @@ use fissure::io::table::{Cell, Table};
 use fissure::io::vtk::{Compression, ParticleSeries, Series};
 use fissure::prelude::*;
 
-use super::bar::{BODY, Bar};
-use super::exact::Exact;
-use super::history::Thinned;
-use super::softening::Finished;
 use fissure_study::{Parameters, StudyError};
+
+use crate::bar::{BODY, Bar, Exact, Finished, Thinned, run_length};
 
 /// Rows of a curve in pictures and tables.
 const ROWS: usize = 400;
@@ -50,6 +48,7 @@ impl Pictures {
         bar: &Bar,
         case: &Parameters,
         finished: &Finished,
+        error: f64,
     ) -> Result<(), StudyError> {
         let Some(folder) = &self.folder else {
             return Ok(());
@@ -65,8 +64,8 @@ impl Pictures {
             solver: solver.to_owned(),
             shape: shape.to_owned(),
             angle,
-            error: finished.row.errors.get("load_l2").unwrap_or(f64::NAN),
-            wall_s: finished.row.wall_s,
+            error,
+            wall_s: finished.wall_s,
             exact: bar.exact(),
             history,
         });
@@ -238,12 +237,11 @@ fn run_name(bar: &Bar, case: &Parameters) -> Result<String, StudyError> {
     Ok(name)
 }
 
-/// ParaView frames of a run, if a folder is given: about twenty up to its `end`, s.
+/// ParaView frames of a run, if a folder is given: about twenty.
 pub(super) fn frames(
     folder: Option<&Path>,
     bar: &Bar,
     case: &Parameters,
-    end: f64,
 ) -> Result<Option<ParticleSeries>, StudyError> {
     let Some(folder) = folder else {
         return Ok(None);
@@ -251,7 +249,7 @@ pub(super) fn frames(
     let name = run_name(bar, case)?;
     let series = Series::new(folder, &name, Compression::Lz4)
         .map_err(StudyError::failed("starting the ParaView series"))?;
-    let frames = ParticleSeries::new(series).every_interval(end / 20.0);
+    let frames = ParticleSeries::new(series).every_interval(run_length(bar, case)? / 20.0);
     Ok(Some(frames.velocity().stress().ids().values()))
 }
 
