@@ -139,7 +139,7 @@ fn distance(a: &[Vector2<f64>], b: &[Vector2<f64>]) -> f64 {
 
 /// Errors of many runs against one quantity, a line per label, both axes logarithmic.
 pub struct ErrorChart {
-    title: &'static str,
+    title: String,
     x_label: &'static str,
     y_label: String,
     lines: Vec<(String, Vec<f64>, Vec<f64>)>,
@@ -151,9 +151,9 @@ const MOST_LINES: usize = 12;
 
 impl ErrorChart {
     /// An empty chart.
-    pub fn new(title: &'static str, x_label: &'static str, y_label: &str) -> Self {
+    pub fn new(title: &str, x_label: &'static str, y_label: &str) -> Self {
         Self {
-            title,
+            title: title.to_owned(),
             x_label,
             y_label: format!("{y_label} [1]"),
             lines: Vec::new(),
@@ -194,7 +194,7 @@ impl ErrorChart {
         if self.lines.is_empty() {
             return Ok(());
         }
-        let mut plot = LinePlot::new(self.title)
+        let mut plot = LinePlot::new(&self.title)
             .x_label(self.x_label)
             .y_label(&self.y_label)
             .log_x()

@@ -11,13 +11,30 @@ use fissure::prelude::*;
 /// # Errors
 /// A region that is refused.
 pub fn clipped(grid: &Grid<2>, region: &dyn Region<2>, area: f64) -> Result<Seeds<2>, SeedError> {
-    let fill = InCell {
+    fill(grid, region, area, true)
+}
+
+/// The same with particles that all have one volume, so that none is much lighter than others.
+///
+/// # Errors
+/// A region that is refused.
+pub fn whole(grid: &Grid<2>, region: &dyn Region<2>, area: f64) -> Result<Seeds<2>, SeedError> {
+    fill(grid, region, area, false)
+}
+
+fn fill(
+    grid: &Grid<2>,
+    region: &dyn Region<2>,
+    area: f64,
+    clip: bool,
+) -> Result<Seeds<2>, SeedError> {
+    let places = InCell {
         origin: grid.origin().into(),
         cell: grid.spacing(),
         per_axis: 2,
-        clip: true,
+        clip,
     };
-    let mut seeds = fill.seed(region)?;
+    let mut seeds = places.seed(region)?;
     let missing = area / seeds.total_volume();
     for volume in &mut seeds.volume {
         *volume *= missing;

@@ -59,6 +59,13 @@ pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Par
             1,
             Permitted::counts(1..=100_000),
         ),
+        Parameter::number(
+            "tolerance",
+            "residual over the largest reaction in equilibrium (quasi-static)",
+            "1",
+            1e-8,
+            Permitted::numbers(1e-12..=1e-2),
+        ),
         Parameter::count(
             "threads",
             "worker threads",
@@ -81,6 +88,8 @@ pub struct Method {
     pub explicit: ExplicitSettings,
     /// Load steps of a quasi-static run.
     pub steps: u64,
+    /// Residual in equilibrium of a quasi-static run, over the largest reaction.
+    pub tolerance: f64,
 }
 
 impl Method {
@@ -111,6 +120,7 @@ impl Method {
                 ..ExplicitSettings::default()
             },
             steps: case.count("steps")?,
+            tolerance: case.number("tolerance")?,
         })
     }
 
@@ -155,6 +165,7 @@ impl Method {
         }
         let settings = QuasiStaticSettings {
             step: end / self.steps as f64,
+            tolerance: self.tolerance,
             band,
             ..QuasiStaticSettings::default()
         };

@@ -7,7 +7,8 @@ use fissure::io::plot::ScatterPlot;
 use fissure::prelude::*;
 
 use fissure_study::{
-    Measures, Overrides, Parameter, Parameters, Report as Rows, SimulationRow, Study, StudyError,
+    Measures, Overrides, Parameter, Parameters, Report as Rows, Row, SimulationRow, Study,
+    StudyError,
 };
 
 use crate::convergence::{ErrorChart, SeriesSet};
@@ -89,6 +90,19 @@ pub trait Runs: Study {
     fn run_case(&self, case: &Parameters) -> Result<SimulationRow, StudyError>;
 }
 
+/// The row of a run that did not reach its end because a step failed: a result, and no reason not
+/// to go on with the others.
+fn stopped(study: &str, case: &Parameters, error: StudyError) -> Result<Row, StudyError> {
+    let reason = match &error {
+        StudyError::Failed { source, .. } if source.is::<SolveError>() => source.to_string(),
+        _ => return Err(error),
+    };
+    Ok(Row::other(study)
+        .field("case", case.label())
+        .field("stopped", reason)
+        .parameters(case))
+}
+
 /// The study of a problem.
 pub struct Verification<P>(pub P);
 
@@ -149,7 +163,13 @@ impl<P: Problem> Study for Verification<P> {
         for (number, case) in cases.iter().enumerate() {
             let (at, count) = (number + 1, cases.len());
             rows.progress(&format!("{at} of {count}: {}", case.label()));
-            let outcome = self.outcome(case)?;
+            let outcome = match self.outcome(case) {
+                Ok(outcome) => outcome,
+                Err(error) => {
+                    rows.row(stopped(self.0.name(), case, error)?)?;
+                    continue;
+                }
+            };
             let row = self.row(case, &outcome);
             series.add(case, &row, &outcome.scene);
             let error = row.errors.get(leading).unwrap_or(f64::NAN);

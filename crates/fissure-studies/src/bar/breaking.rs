@@ -164,6 +164,9 @@ pub(crate) fn row(
         .map_err(StudyError::failed("measuring the failed zone"))?;
     let relative = |value: f64, reference: f64| (value / reference - 1.0).abs();
     let balance = EnergyBalance::of(scene.energy());
+    // Halfway down, and where the load has gone in the exact solution.
+    let at = |elongation| history.load_at(elongation);
+    let middle = 0.5 * (exact.peak_elongation() + exact.critical_opening());
     let mut row = SimulationRow::new(study, case);
     row.particles = scene.particle_count() as u64;
     row.steps = scene.step();
@@ -187,6 +190,11 @@ pub(crate) fn row(
         .with(
             "failed_zone_cells",
             failed.volume / (exact.area * bar.spacing),
+        )
+        .with("middle_load", at(middle) / exact.load(middle))
+        .with(
+            "late_load",
+            at(1.2 * exact.critical_opening()) / exact.peak_load(),
         )
         .with("peak_load", history.curve.peak())
         .with("work", history.curve.work())

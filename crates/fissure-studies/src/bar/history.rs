@@ -34,6 +34,17 @@ impl History {
         self.dissipated.push(dissipated);
     }
 
+    /// Load at an elongation, linear between rows, N; NaN beyond them.
+    pub(crate) fn load_at(&self, elongation: f64) -> f64 {
+        let (x, y) = (self.curve.displacement(), self.curve.load());
+        let above = x.partition_point(|x| *x < elongation);
+        if above == 0 || above == x.len() {
+            return f64::NAN;
+        }
+        let share = (elongation - x[above - 1]) / (x[above] - x[above - 1]);
+        y[above - 1] + share * (y[above] - y[above - 1])
+    }
+
     /// About `count` rows, the first and last among them.
     pub(crate) fn thinned(&self, count: usize) -> Thinned {
         let stride = self.work.len().div_ceil(count).max(1);

@@ -1,6 +1,7 @@
 //! The elastic-decohesive bar of Sanchez 2010, ch. 5, for the studies that pull it.
 
 mod breaking;
+pub(crate) mod drawing;
 mod exact;
 mod history;
 mod specimen;

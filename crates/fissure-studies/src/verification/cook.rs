@@ -25,8 +25,6 @@ const LENGTH: f64 = 48.0;
 /// Heights on the left and of the right edge's ends, m.
 const LEFT: f64 = 44.0;
 const RIGHT: (f64, f64) = (44.0, 60.0);
-/// The part of the load that is put on.
-const SCALE: f64 = 1e-6;
 
 /// What a case is, and its answer.
 struct Variant {
@@ -35,6 +33,8 @@ struct Variant {
     poisson: f64,
     /// On the right edge, N.
     load: f64,
+    /// The part of it that is put on.
+    part: f64,
     /// Displacement of the middle of the loaded edge, m.
     reference: f64,
 }
@@ -46,6 +46,7 @@ fn variant(name: &str) -> Variant {
             young: 240.565,
             poisson: 0.4999,
             load: 100.0,
+            part: 1e-3,
             reference: 7.7,
         };
     }
@@ -54,6 +55,7 @@ fn variant(name: &str) -> Variant {
         young: 1.0,
         poisson: 1.0 / 3.0,
         load: 1.0,
+        part: 1e-5,
         reference: 23.97,
     }
 }
@@ -123,14 +125,16 @@ impl Problem for Cook {
         let mut solver = method.build(grid, BandSource::default(), 1.0)?;
         let wall_s = run_to(&mut scene, &mut *solver, 1.0, case)?;
         let edge = Vector2::new(LENGTH, 0.5 * (RIGHT.0 + RIGHT.1));
-        let way = displacement_at(&scene, &first, &edge, 2.0 * h).y / SCALE;
+        let way = displacement_at(&scene, &first, &edge, 2.0 * h).y / variant.part;
         let mut outcome = Outcome::of(scene, wall_s);
         let error = (way / variant.reference - 1.0).abs();
         outcome.errors.insert("displacement", error);
         outcome.values.insert("u_y", way);
         outcome.values.insert("reference", variant.reference);
         let stress = outcome.scene.bodies()[0].motion().stress;
-        let pressure = stress.iter().map(|s| -s.mean() / (SCALE * variant.load));
+        let pressure = stress
+            .iter()
+            .map(|s| -s.mean() / (variant.part * variant.load));
         outcome.field = Some(("pressure over load [1/m²]", pressure.collect()));
         Ok(outcome)
     }
@@ -154,7 +158,7 @@ fn panel(
         young: variant.young,
         poisson: variant.poisson,
     };
-    let load = SCALE * variant.load;
+    let load = variant.part * variant.load;
     let mut scene = Scene::plane(variant.plane);
     scene
         .fill("panel", law, &outline, &Seeded(seeds))?

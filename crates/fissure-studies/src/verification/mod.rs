@@ -8,6 +8,7 @@ mod cook;
 mod disc_spin;
 mod fitting;
 mod manufactured;
+mod nodal_force;
 mod vortex_mms;
 
 pub(crate) use axis_aligned_mms::AxisAlignedMms;
