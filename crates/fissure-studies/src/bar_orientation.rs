@@ -1,6 +1,6 @@
 //! The bar turned against the grid: how much what a crack does depends on the grid [Sanchez 2010, sec. 5.4, 5.5].
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::prelude::*;
@@ -90,6 +90,7 @@ impl Study for BarOrientation {
                 row: row.clone(),
                 history: finished.history.thinned(ROWS),
                 name: file_name(case),
+                stopped: finished.stopped.is_some(),
             };
             rows.row(row)?;
             if let Some(reason) = &finished.stopped {
@@ -106,7 +107,7 @@ impl Study for BarOrientation {
             }
         }
         for ensemble in ensembles.iter().filter(|ensemble| ensemble.len() > 1) {
-            rows.row(ensemble_row(ensemble))?;
+            rows.row(ensemble_row(ensemble)?)?;
         }
         match rows.out_dir().map(Path::to_path_buf) {
             Some(folder) => draw_curves(&ensembles, &folder),
@@ -121,6 +122,8 @@ struct Run {
     row: SimulationRow,
     history: Thinned,
     name: String,
+    /// Whether it ended before its time.
+    stopped: bool,
 }
 
 /// Stored energy at the end over that at the peak of the exact curve: what has not been let go.
@@ -133,32 +136,36 @@ fn but_offset(case: &Parameters) -> impl Iterator<Item = (&'static str, &Value)>
     case.iter().filter(|(name, _)| *name != "offset")
 }
 
-/// Mean, least and greatest of each measure over the offsets.
-fn ensemble_row(ensemble: &[Run]) -> Row {
-    let first = &ensemble[0];
+/// Mean, least and greatest of each measure over the offsets at which the run reached its end.
+fn ensemble_row(ensemble: &[Run]) -> Result<Row, StudyError> {
+    let case = &ensemble[0].case;
+    let ended: Vec<&Run> = ensemble.iter().filter(|run| !run.stopped).collect();
     let mut fields = Fields::new();
-    let measures = ERRORS.iter().chain(&VALUES);
-    for name in measures {
-        let of = |run: &Run| run.row.errors.get(name).or(run.row.values.get(name));
-        let values: Vec<f64> = ensemble
+    for name in ERRORS.iter().chain(&VALUES) {
+        let of = |run: &&Run| run.row.errors.get(name).or(run.row.values.get(name));
+        let values: Vec<f64> = ended
             .iter()
             .map(|run| of(run).unwrap_or(f64::NAN))
             .collect();
-        let count = values.len() as f64;
-        let ends = |pick: fn(f64, f64) -> f64| values.iter().copied().reduce(pick);
-        fields.insert(format!("{name}_mean"), values.iter().sum::<f64>() / count);
-        fields.insert(format!("{name}_least"), ends(f64::min).unwrap_or(f64::NAN));
-        fields.insert(
-            format!("{name}_greatest"),
-            ends(f64::max).unwrap_or(f64::NAN),
-        );
+        let end = |pick: fn(f64, f64) -> f64| {
+            let end = values.iter().copied().reduce(pick);
+            end.unwrap_or(f64::NAN)
+        };
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        fields.insert(format!("{name}_mean"), mean);
+        fields.insert(format!("{name}_least"), end(f64::min));
+        fields.insert(format!("{name}_greatest"), end(f64::max));
     }
-    Row::other(NAME)
+    Ok(Row::other(NAME)
         .field("case", "ensemble")
-        .field("of", first.case.label_without(&["offset"]))
+        .field("angle", case.number("angle")?)
+        .field("fill", case.choice("fill")?)
+        .field("law", case.choice("law")?)
+        .field("weak", case.choice("weak")?)
+        .field("h", case.number("h")?)
         .field("runs", Field::from(ensemble.len()))
-        .field("ensemble", Field::Group(fields))
-        .parameters(&first.case)
+        .field("stopped", Field::from(ensemble.len() - ended.len()))
+        .field("ensemble", Field::Group(fields)))
 }
 
 /// Name of a run's files: what varies in this run of the study.
@@ -201,7 +208,7 @@ fn draw_state(bar: &Bar, scene: &Scene<2>, run: &Run, folder: &Path) -> Result<(
 }
 
 /// Load and energies over the elongation, a picture per angle.
-fn draw_curves(ensembles: &[Vec<Run>], folder: &PathBuf) -> Result<(), StudyError> {
+fn draw_curves(ensembles: &[Vec<Run>], folder: &Path) -> Result<(), StudyError> {
     let mut angles: Vec<f64> = Vec::new();
     let of_line = |run: &Run| run.case.choice("weak").is_ok_and(|weak| weak == "line");
     let firsts = || ensembles.iter().map(|ensemble| &ensemble[0]);

@@ -193,13 +193,14 @@ impl Problem for SofteningWave {
             .map_err(StudyError::failed("making the grid"))?;
         let mut solver = method.build(grid, BandSource::default(), end)?;
         let (mut times, mut openings) = (vec![0.0], vec![0.0]);
+        let gauge = Gauge::of(&scene, h);
         let start = Instant::now();
         while scene.time() < end {
             solver
                 .step(&mut scene, end)
                 .map_err(StudyError::failed(format!("running {}", case.label())))?;
             times.push(scene.time() - meet);
-            openings.push(opening(&scene, h));
+            openings.push(gauge.opening(&scene, &wave.elastic, h));
         }
         let wall_s = start.elapsed().as_secs_f64();
         times[0] = -meet;
@@ -254,12 +255,67 @@ fn outcome(
     outcome
 }
 
-/// Opening of all cracks in the bar, m: the volume mean of a cell is the crack's.
-fn opening(scene: &Scene<2>, h: f64) -> f64 {
-    let body = &scene.bodies()[0];
-    let openings = body.value("opening").unwrap_or_default();
-    let pairs = openings.iter().zip(&body.particles().volume);
-    pairs.map(|(opening, volume)| opening * volume).sum::<f64>() / (h * h * h)
+/// Half the length over which the opening is measured, m.
+const GAUGE: f64 = 0.1;
+
+/// The particles between which the opening is measured, and those at its ends.
+struct Gauge {
+    /// By id: 0 outside, 1 inside, 2 in the column at the left end, 3 in that at the right end.
+    role: Vec<u8>,
+    /// What the columns were apart, m.
+    apart: f64,
+}
+
+impl Gauge {
+    fn of(scene: &Scene<2>, h: f64) -> Self {
+        let mut gauge = Self {
+            role: vec![0; scene.particle_count()],
+            apart: 0.0,
+        };
+        let body = &scene.bodies()[0];
+        for (id, x) in body.particles().id.iter().zip(body.motion().position) {
+            let away = x.x - HALF;
+            let end = (away.abs() - GAUGE).abs() < 0.25 * h;
+            gauge.role[id.0 as usize] = match (end, away.abs() < GAUGE) {
+                (true, _) if away < 0.0 => 2,
+                (true, _) => 3,
+                (false, true) => 1,
+                (false, false) => 0,
+            };
+        }
+        gauge.apart = gauge.distance(scene);
+        gauge
+    }
+
+    fn distance(&self, scene: &Scene<2>) -> f64 {
+        let body = &scene.bodies()[0];
+        let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
+        for (id, x) in body.particles().id.iter().zip(body.motion().position) {
+            if let Some(end) = self.role[id.0 as usize].checked_sub(2) {
+                sums[usize::from(end)] += x.x;
+                counts[usize::from(end)] += 1.0;
+            }
+        }
+        sums[1] / counts[1] - sums[0] / counts[0]
+    }
+
+    /// What the ends have moved apart beyond the elastic strain of what is between them, m.
+    fn opening(&self, scene: &Scene<2>, elastic: &Isotropic, h: f64) -> f64 {
+        let body = &scene.bodies()[0];
+        let inside = |id: usize| match self.role[id] {
+            0 => 0.0,
+            1 => 1.0,
+            // Half of a column at the end is between the ends.
+            _ => 0.5,
+        };
+        let rows = body.particles().id.iter().zip(body.motion().stress);
+        let strained: f64 = rows
+            .zip(&body.particles().volume)
+            .map(|((id, stress), volume)| inside(id.0 as usize) * stress.xx() * volume)
+            .sum();
+        let elongation = strained / (elastic.p_wave_modulus() * h * h);
+        self.distance(scene) - self.apart - elongation
+    }
 }
 
 #[cfg(test)]

@@ -144,3 +144,19 @@ fn a_pressed_disc_has_the_stresses_of_hondros() {
         &[("diameter_l2", 1.0)],
     );
 }
+
+#[test]
+fn waves_that_meet_open_a_crack_as_fast_as_they_should() {
+    let settings = [
+        "energy=area",
+        "shape=linear",
+        "h=0.024390243902439025,0.012345679012345678",
+        "transfer=flip",
+    ];
+    holds(
+        "softening-wave",
+        &settings,
+        &[("rate", 0.05), ("dissipated", 0.06)],
+        &[("dissipated", 0.5)],
+    );
+}

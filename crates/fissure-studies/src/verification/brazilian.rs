@@ -71,7 +71,11 @@ impl Problem for Brazilian {
 
     fn cases(&self, quick: bool) -> Vec<Overrides> {
         let spacings = if quick { &SPACINGS[..2] } else { &SPACINGS[..] };
-        let shapes: &[&str] = if quick { &["linear"] } else { method::SHAPES };
+        let shapes: &[&str] = if quick {
+            &["linear"]
+        } else {
+            &["linear", "bspline2"]
+        };
         vec![
             Overrides::new()
                 .sweep("h", spacings.iter().copied())

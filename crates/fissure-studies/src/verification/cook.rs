@@ -71,6 +71,10 @@ impl Problem for Cook {
 
     fn parameters(&self) -> Vec<Parameter> {
         let mut parameters = method::parameters(&SPACINGS, &["quasi-static"]);
+        // At ν = 0.4999 round-off in the volume change alone leaves 1e-6.
+        for parameter in parameters.iter_mut().filter(|p| p.name == "tolerance") {
+            parameter.default = vec![1e-5.into()];
+        }
         parameters.push(Parameter::choice(
             "material",
             "plane stress with ν = 1/3, or plane strain with ν = 0.4999",
@@ -92,7 +96,7 @@ impl Problem for Cook {
         let shapes: &[&str] = if quick {
             &["linear"]
         } else {
-            &["linear", "gimp", "bspline2"]
+            &["linear", "bspline2"]
         };
         vec![
             Overrides::new()
