@@ -68,6 +68,7 @@ impl Study for BarOrientation {
                 .sweep("law", ["rankine", "damaged-shear", "rotating"]),
             turned(&["rotated"])
                 .set("h", 0.005)
+                .sweep("angle", [0.0, 45.0])
                 .sweep("law", ["prescribed", "no-shear"]),
             // Where the bar is weaker, sec. 5.4.
             base()

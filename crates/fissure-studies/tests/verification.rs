@@ -21,7 +21,6 @@ fn holds(study: &str, settings: &[&str], errors: &[(&str, f64)], orders: &[(&str
     let finest = rows.iter().rfind(|row| row["errors"].is_object()).unwrap();
     for (name, bound) in errors {
         let error = number(finest, "errors", name);
-        println!("{study}: {name} {error:.3e}");
         assert!(
             error <= *bound,
             "{name} = {error} is over {bound} in {finest}"
@@ -29,7 +28,6 @@ fn holds(study: &str, settings: &[&str], errors: &[(&str, f64)], orders: &[(&str
     }
     for (name, bound) in orders {
         let order = order(&rows, name);
-        println!("{study}: {name} of order {order:.2}");
         assert!(order >= *bound, "{name} has order {order}, under {bound}");
     }
 }
