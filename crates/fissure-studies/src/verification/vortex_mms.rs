@@ -25,7 +25,7 @@ pub struct VortexMms;
 /// Inner and outer radius, m.
 const RADII: (f64, f64) = (0.75, 1.25);
 /// Spacings of the default run, m.
-const SPACINGS: [f64; 3] = [1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
+const SPACINGS: [f64; 3] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0];
 
 #[derive(Clone, Copy, Debug)]
 struct Vortex {
@@ -143,7 +143,7 @@ impl Problem for VortexMms {
         if quick {
             return vec![
                 Overrides::new()
-                    .sweep("h", [0.125, 0.0625])
+                    .sweep("h", spacings.iter().copied())
                     .set("shape", "bspline2"),
             ];
         }
