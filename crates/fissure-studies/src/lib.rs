@@ -2,13 +2,30 @@
 //!
 //! A study implements [`fissure_study::Study`] and is listed in [`studies`].
 
+mod bar;
+mod bar_bifurcation;
+mod bar_orientation;
+mod convergence;
+mod filling;
+mod method;
+mod problem;
+mod softening_wave;
 pub mod tensile_bar;
+pub mod verification;
+mod work_precision;
 
 use fissure_study::Study;
 
 /// Every study of the binary, in the order of `--list`.
 pub fn studies() -> Vec<Box<dyn Study>> {
     let mut studies: Vec<Box<dyn Study>> = vec![Box::new(tensile_bar::TensileBar)];
+    studies.extend(verification::studies());
+    studies.push(Box::new(work_precision::WorkPrecision));
+    studies.push(Box::new(problem::Verification(
+        softening_wave::SofteningWave,
+    )));
+    studies.push(Box::new(bar_orientation::BarOrientation));
+    studies.push(Box::new(bar_bifurcation::BarBifurcation));
     studies.extend(fissure_law_studies::studies());
     studies
 }

@@ -1,29 +1,10 @@
 //! The tensile bar against its exact solution, through the command line.
 #![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
 
-use fissure_studies::studies;
-use fissure_study::execute;
+mod common;
+
+use common::{number, rows};
 use serde_json::Value;
-
-/// Result rows of a command, as JSON.
-fn rows(arguments: &[&str]) -> Vec<Value> {
-    let (mut output, mut messages) = (Vec::new(), Vec::new());
-    let arguments = ["fissure-studies", "tensile-bar", "--json"]
-        .iter()
-        .chain(arguments)
-        .copied();
-    let code = execute(&studies(), arguments, &mut output, &mut messages);
-    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
-    let text = String::from_utf8(output).unwrap();
-    text.lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect()
-}
-
-/// A number of a row; a missing or non-finite one is NaN, which no bound holds for.
-fn number(row: &Value, group: &str, name: &str) -> f64 {
-    row[group][name].as_f64().unwrap_or(f64::NAN)
-}
 
 fn assert_within(row: &Value, bounds: &[(&str, f64)]) {
     for (error, bound) in bounds {
@@ -39,14 +20,10 @@ fn assert_within(row: &Value, bounds: &[(&str, f64)]) {
 
 #[test]
 fn quasi_static_bar_follows_the_exact_curve() {
-    let rows = rows(&[
-        "--set",
-        "solver=quasi-static",
-        "--set",
-        "shape=linear",
-        "--set",
-        "h=0.005",
-    ]);
+    let rows = rows(
+        "tensile-bar",
+        &["solver=quasi-static", "shape=linear", "h=0.005"],
+    );
     assert_eq!(rows.len(), 1);
     assert_within(
         &rows[0],
@@ -66,14 +43,10 @@ fn quasi_static_bar_follows_the_exact_curve() {
 
 #[test]
 fn explicit_bar_follows_the_exact_curve() {
-    let rows = rows(&[
-        "--set",
-        "solver=explicit",
-        "--set",
-        "shape=linear",
-        "--set",
-        "h=0.005",
-    ]);
+    let rows = rows(
+        "tensile-bar",
+        &["solver=explicit", "shape=linear", "h=0.005"],
+    );
     assert_eq!(rows.len(), 1);
     assert_within(
         &rows[0],
@@ -88,30 +61,22 @@ fn explicit_bar_follows_the_exact_curve() {
 
 #[test]
 fn other_constants_and_sizes_are_as_right() {
-    let rows = rows(&[
-        "--set",
-        "solver=quasi-static",
-        "--set",
-        "shape=linear",
-        "--set",
-        "h=0.005",
-        "--set",
-        "young=30e9,35e9",
-        "--set",
-        "poisson=0.25",
-        "--set",
-        "strength=3e6",
-        "--set",
-        "toughness=100",
-        "--set",
-        "length=0.15",
-        "--set",
-        "width=0.05",
-        "--set",
-        "depth=0.1",
-        "--set",
-        "weakening=0.8",
-    ]);
+    let rows = rows(
+        "tensile-bar",
+        &[
+            "solver=quasi-static",
+            "shape=linear",
+            "h=0.005",
+            "young=30e9,35e9",
+            "poisson=0.25",
+            "strength=3e6",
+            "toughness=100",
+            "length=0.15",
+            "width=0.05",
+            "depth=0.1",
+            "weakening=0.8",
+        ],
+    );
     assert_eq!(rows.len(), 2, "a comma list makes one row per value");
     for row in &rows {
         assert_within(
@@ -123,16 +88,15 @@ fn other_constants_and_sizes_are_as_right() {
 
 #[test]
 fn the_particles_size_as_band_dissipates_twice() {
-    let rows = rows(&[
-        "--set",
-        "solver=quasi-static",
-        "--set",
-        "shape=linear",
-        "--set",
-        "h=0.01",
-        "--set",
-        "band=particle",
-    ]);
+    let rows = rows(
+        "tensile-bar",
+        &[
+            "solver=quasi-static",
+            "shape=linear",
+            "h=0.01",
+            "band=particle",
+        ],
+    );
     let ratio = number(&rows[0], "values", "dissipated_ratio");
     assert!(
         (ratio - 2.0).abs() <= 0.01,
@@ -142,16 +106,10 @@ fn the_particles_size_as_band_dissipates_twice() {
 
 #[test]
 fn a_bar_at_45_degrees_locks_as_in_the_document() {
-    let rows = rows(&[
-        "--set",
-        "solver=quasi-static",
-        "--set",
-        "shape=linear",
-        "--set",
-        "h=0.01",
-        "--set",
-        "angle=45",
-    ]);
+    let rows = rows(
+        "tensile-bar",
+        &["solver=quasi-static", "shape=linear", "h=0.01", "angle=45"],
+    );
     let error = number(&rows[0], "errors", "load_l2");
     let work = number(&rows[0], "errors", "work");
     assert!(
@@ -162,14 +120,7 @@ fn a_bar_at_45_degrees_locks_as_in_the_document() {
 
 #[test]
 fn elastic_bar_is_exact_when_aligned_and_converges_when_turned() {
-    let rows = rows(&[
-        "--set",
-        "case=elastic",
-        "--set",
-        "angle=0,30",
-        "--set",
-        "fill=cell",
-    ]);
+    let rows = rows("tensile-bar", &["case=elastic", "angle=0,30", "fill=cell"]);
     let (slopes, runs): (Vec<&Value>, Vec<&Value>) =
         rows.iter().partition(|row| row["case"] == "elastic slopes");
     assert_eq!((slopes.len(), runs.len()), (4, 8));

@@ -32,6 +32,14 @@ impl Measures {
         }
     }
 
+    /// Every measure with its name, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.fields.iter().map(|(name, field)| match field {
+            Field::Number(value) => (name, *value),
+            _ => (name, f64::NAN),
+        })
+    }
+
     /// Adds a measure and returns the measures, for writing them in one expression.
     #[must_use]
     pub fn with(mut self, name: impl Into<String>, value: f64) -> Self {

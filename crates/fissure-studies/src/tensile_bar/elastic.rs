@@ -2,11 +2,11 @@
 
 use fissure::diagnostics::fit_slope;
 use fissure::prelude::*;
-use rayon::ThreadPoolBuilder;
-
-use super::bar::{BODY, Bar};
-use super::softening::load;
 use fissure_study::{Parameters, Report as Rows, Row, SimulationRow, StudyError};
+
+use super::NAME;
+use crate::bar::{BODY, Bar, load};
+use crate::method::{Method, on_threads};
 
 /// Mean strain of the bar: so small that the geometry does not change within the errors studied.
 const STRAIN: f64 = 1e-7;
@@ -22,11 +22,7 @@ const TABLE_5_2: [(f64, f64); 4] = [
 pub(super) fn run(cases: &[&Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     let mut series: Vec<Series> = Vec::new();
     for case in cases {
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(case.size("threads")?)
-            .build()
-            .map_err(StudyError::failed("starting the worker threads"))?;
-        let pulled = pool.install(|| pull(case))?;
+        let pulled = on_threads(case, || pull(case))?;
         let h = pulled.row.h;
         for (measure, error) in [("gauge_load", pulled.gauge_load), ("load", pulled.load)] {
             let named = |s: &&mut Series| s.fits(case, measure);
@@ -79,7 +75,7 @@ impl Series {
         let inverse_h: Vec<f64> = h.iter().map(|h| 0.01 / h).collect();
         let decades: Vec<f64> = errors.iter().map(|error| error.log10()).collect();
         let document = TABLE_5_2.iter().find(|(angle, _)| *angle == self.angle);
-        Row::other("tensile-bar")
+        Row::other(NAME)
             .field("case", "elastic slopes")
             .field("angle", self.angle)
             .field("fill", self.fill.as_str())
@@ -109,19 +105,11 @@ struct Pulled {
     load: f64,
 }
 
-fn pull(case: &Parameters) -> Result<Pulled, StudyError> {
-    match case.choice("shape")? {
-        "gimp" => pull_on(case, shape::Gimp),
-        "cpdi" => pull_on(case, shape::Cpdi),
-        "bspline2" => pull_on(case, shape::Bspline2),
-        "bspline3" => pull_on(case, shape::Bspline3),
-        _ => pull_on(case, shape::Linear),
-    }
-}
-
 /// One quasi-static step; the load against the elongation between sections 0.1 L inside the ends.
-fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyError> {
-    if case.choice("solver")? != "quasi-static" {
+fn pull(case: &Parameters) -> Result<Pulled, StudyError> {
+    let mut method = Method::of(case)?;
+    method.steps = 1;
+    if method.is_dynamic() {
         let reason = "the elastic study is quasi-static";
         return Err(StudyError::combination(case, &["case", "solver"], reason));
     }
@@ -131,8 +119,7 @@ fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyErro
     let mut scene = bar.scene(&grid, move |_| way)?;
     let before = gauge_sections(&bar, &scene);
     let start = std::time::Instant::now();
-    let mut solver = QuasiStatic::new(grid, shape, QuasiStaticSettings::default())
-        .map_err(StudyError::failed("setting up"))?;
+    let mut solver = method.build(grid, BandSource::default(), 1.0)?;
     solver
         .step(&mut scene, 1.0)
         .map_err(StudyError::failed(format!("running {}", case.label())))?;
@@ -143,7 +130,7 @@ fn pull_on<S: Shape<2>>(case: &Parameters, shape: S) -> Result<Pulled, StudyErro
     let gauge_load = (load(&scene, &bar.axis()) / (stiffness * strain) - 1.0).abs();
     // The document's own measure (eq. 5.2.44) compares with the elongation of the whole bar.
     let whole = (load(&scene, &bar.axis()) / (stiffness * STRAIN) - 1.0).abs();
-    let mut row = SimulationRow::new("tensile-bar", case);
+    let mut row = SimulationRow::new(NAME, case);
     row.particles = scene.particle_count() as u64;
     row.steps = scene.step();
     row.wall_s = wall_s;

@@ -1,22 +1,25 @@
 //! The tensile bar of Sanchez 2010, ch. 5: an elastic-decohesive bar pulled apart on a grid that
 //! may be turned against it.
 
-mod bar;
 mod cases;
 mod elastic;
-mod exact;
-mod history;
 mod pictures;
 mod softening;
 
-use fissure_study::{Overrides, Parameter, Parameters, Report, Study, StudyError};
+use fissure_study::{Overrides, Parameter, Parameters, Report, SimulationRow, Study, StudyError};
+
+use crate::bar::{Bar, break_bar, row};
+use crate::method::on_threads;
+use crate::problem::Runs;
+
+const NAME: &str = "tensile-bar";
 
 /// The study `tensile-bar`.
 pub struct TensileBar;
 
 impl Study for TensileBar {
     fn name(&self) -> &'static str {
-        "tensile-bar"
+        NAME
     }
 
     fn about(&self) -> &'static str {
@@ -36,5 +39,13 @@ impl Study for TensileBar {
         let (elastic, softening): (Vec<_>, Vec<_>) = cases.iter().partition(is_elastic);
         softening::run(&softening, report)?;
         elastic::run(&elastic, report)
+    }
+}
+
+impl Runs for TensileBar {
+    fn run_case(&self, case: &Parameters) -> Result<SimulationRow, StudyError> {
+        let bar = Bar::new(case)?;
+        let finished = on_threads(case, || break_bar(&bar, case, None))?;
+        row(NAME, &bar, case, &finished)
     }
 }

@@ -2,19 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use fissure::io::plot::{LinePlot, ScatterPlot, Style};
-use fissure::io::table::{Cell, Table};
+use fissure::io::plot::{LinePlot, Style};
 use fissure::io::vtk::{Compression, ParticleSeries, Series};
-use fissure::prelude::*;
 
-use super::bar::{BODY, Bar};
-use super::exact::Exact;
-use super::history::Thinned;
-use super::softening::Finished;
 use fissure_study::{Parameters, StudyError};
 
-/// Rows of a curve in pictures and tables.
-const ROWS: usize = 400;
+use crate::bar::drawing::{ROWS, draw_bar, sampled, save};
+use crate::bar::{Bar, Exact, Finished, Thinned, run_length};
+
 /// Curves of one picture: more would not be told apart.
 const CURVES: usize = 6;
 
@@ -50,6 +45,7 @@ impl Pictures {
         bar: &Bar,
         case: &Parameters,
         finished: &Finished,
+        error: f64,
     ) -> Result<(), StudyError> {
         let Some(folder) = &self.folder else {
             return Ok(());
@@ -65,8 +61,8 @@ impl Pictures {
             solver: solver.to_owned(),
             shape: shape.to_owned(),
             angle,
-            error: finished.row.errors.get("load_l2").unwrap_or(f64::NAN),
-            wall_s: finished.row.wall_s,
+            error,
+            wall_s: finished.wall_s,
             exact: bar.exact(),
             history,
         });
@@ -170,57 +166,6 @@ impl Pictures {
     }
 }
 
-impl Thinned {
-    fn write(&self, path: &Path) -> Result<(), StudyError> {
-        let failed = || StudyError::failed(format!("writing {}", path.display()));
-        let columns = [
-            "elongation [m]",
-            "load [N]",
-            "work [J]",
-            "stored [J]",
-            "dissipated [J]",
-        ];
-        let mut table = Table::new(&columns).map_err(failed())?;
-        for i in 0..self.elongation.len() {
-            let row = [
-                self.elongation[i],
-                self.load[i],
-                self.work[i],
-                self.stored[i],
-                self.dissipated[i],
-            ];
-            table.row(row.map(Cell::Number)).map_err(failed())?;
-        }
-        table.write(path).map_err(failed())
-    }
-}
-
-/// An exact curve up to 1.25 critical openings.
-fn sampled(exact: &Exact, curve: fn(&Exact, f64) -> f64) -> (Vec<f64>, Vec<f64>) {
-    let end = 1.25 * exact.critical_opening();
-    let x: Vec<f64> = (0..=ROWS).map(|i| end * i as f64 / ROWS as f64).collect();
-    let y = x.iter().map(|x| curve(exact, *x)).collect();
-    (x, y)
-}
-
-/// The bar coloured by the opening of its crack.
-fn draw_bar(bar: &Bar, scene: &Scene<2>, path: &Path) -> Result<(), StudyError> {
-    let Some(body) = scene.body(BODY) else {
-        return Ok(());
-    };
-    let points: Vec<[f64; 2]> = body.motion().position.iter().map(|x| [x.x, x.y]).collect();
-    let critical = bar.exact().critical_opening();
-    let openings = body.value("opening").unwrap_or_default();
-    let openings: Vec<f64> = openings.iter().map(|opening| opening / critical).collect();
-    ScatterPlot::new("Opening of the crack", &points)
-        .colour("opening over critical opening [1]", openings)
-        .range(0.0, 1.0)
-        .particle_size(0.5 * bar.spacing)
-        .labels("x [m]", "y [m]")
-        .save(path)
-        .map_err(StudyError::failed("drawing the bar"))
-}
-
 /// Name of the files of a run.
 fn run_name(bar: &Bar, case: &Parameters) -> Result<String, StudyError> {
     let mut name = format!(
@@ -238,12 +183,11 @@ fn run_name(bar: &Bar, case: &Parameters) -> Result<String, StudyError> {
     Ok(name)
 }
 
-/// ParaView frames of a run, if a folder is given: about twenty up to its `end`, s.
+/// ParaView frames of a run, if a folder is given: about twenty.
 pub(super) fn frames(
     folder: Option<&Path>,
     bar: &Bar,
     case: &Parameters,
-    end: f64,
 ) -> Result<Option<ParticleSeries>, StudyError> {
     let Some(folder) = folder else {
         return Ok(None);
@@ -251,11 +195,6 @@ pub(super) fn frames(
     let name = run_name(bar, case)?;
     let series = Series::new(folder, &name, Compression::Lz4)
         .map_err(StudyError::failed("starting the ParaView series"))?;
-    let frames = ParticleSeries::new(series).every_interval(end / 20.0);
+    let frames = ParticleSeries::new(series).every_interval(run_length(bar, case)? / 20.0);
     Ok(Some(frames.velocity().stress().ids().values()))
-}
-
-fn save(plot: LinePlot, path: &Path) -> Result<(), StudyError> {
-    plot.save(path)
-        .map_err(StudyError::failed(format!("drawing {}", path.display())))
 }

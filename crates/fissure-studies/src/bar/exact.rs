@@ -2,7 +2,7 @@
 
 /// A plane-strain bar that opens at one section with linear softening.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Exact {
+pub(crate) struct Exact {
     /// Length, m.
     pub length: f64,
     /// Section, m².

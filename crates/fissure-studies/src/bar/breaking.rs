@@ -1,0 +1,206 @@
+//! Pulling the bar apart.
+
+use std::time::Instant;
+
+use fissure::diagnostics::{EnergyBalance, FailedZone, state_hash};
+use fissure::io::progress::Progress;
+use fissure::prelude::*;
+
+use fissure_study::{Measures, Parameters, SimulationRow, StudyError};
+
+use super::exact::Exact;
+use super::history::History;
+use super::specimen::{BODY, Bar};
+use crate::method::Method;
+
+/// Where a run ends, over the critical opening.
+const END: f64 = 1.25;
+/// Up to where the load is compared, over the critical opening.
+const COMPARED: f64 = 1.2;
+
+/// Steps between updates of the progress bar.
+const PROGRESS: u64 = 50;
+
+/// A finished run.
+pub(crate) struct Finished {
+    pub history: History,
+    pub scene: Scene<2>,
+    /// Wall time of the steps, s.
+    pub wall_s: f64,
+    /// Width over which a crack across the bar was smeared, m.
+    pub band_width: f64,
+    /// Why the run ended before its time.
+    pub stopped: Option<String>,
+}
+
+/// How the right grip moves: to full speed over a ramp, then on to the end of the run.
+#[derive(Clone, Copy)]
+struct Loading {
+    speed: f64,
+    ramp: f64,
+    end: f64,
+}
+
+impl Loading {
+    fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
+        let speed = case.number("speed")?;
+        let transit = bar.length / bar.elastic.p_wave_speed();
+        let ramp = match method.is_dynamic() {
+            true => case.number("ramp")? * transit,
+            false => 0.0,
+        };
+        // With the particle's size as band both columns of the weak cell open, one after the other.
+        let cracks = match case.choice("band")? {
+            "particle" => 2.0,
+            _ => 1.0,
+        };
+        let way = cracks * END * bar.exact().critical_opening();
+        Ok(Self {
+            speed,
+            ramp,
+            end: 0.5 * ramp + way / speed,
+        })
+    }
+
+    fn at(&self, time: f64) -> f64 {
+        if time < self.ramp {
+            self.speed * time / self.ramp
+        } else {
+            self.speed
+        }
+    }
+}
+
+/// How long a run takes in the time of the scene, s.
+pub(crate) fn run_length(bar: &Bar, case: &Parameters) -> Result<f64, StudyError> {
+    Ok(Loading::new(bar, case, &Method::of(case)?)?.end)
+}
+
+/// Runs one case; `frames`, if given, looks at the scene after every step.
+pub(crate) fn break_bar(
+    bar: &Bar,
+    case: &Parameters,
+    mut frames: Option<&mut dyn Watch<2>>,
+) -> Result<Finished, StudyError> {
+    let method = Method::of(case)?;
+    let loading = Loading::new(bar, case, &method)?;
+    let grid = bar.grid()?;
+    let mut scene = bar.scene(&grid, move |t| loading.at(t))?;
+    let band = match case.choice("band")? {
+        "particle" => BandSource::Particle,
+        _ => BandSource::Discretisation,
+    };
+    let band_width = method.band_width(band, &grid, &scene, &bar.axis());
+    let mut solver = method.build(grid, band, loading.end)?;
+    let mut progress = Progress::new(loading.end, &case.label()).every(PROGRESS);
+    let start = Instant::now();
+    let mut history = History::at_rest();
+    let mut elongation = 0.0;
+    let mut stopped = None;
+    while scene.time() < loading.end {
+        let report = match solver.step(&mut scene, loading.end) {
+            Ok(report) => report,
+            // A snap that controlled elongation cannot follow: a result, not the study's failure.
+            Err(stop @ (SolveError::NoConvergence { .. } | SolveError::Singular { .. })) => {
+                stopped = Some(stop.to_string());
+                break;
+            }
+            Err(error) => {
+                let doing = format!("running {}", case.label());
+                return Err(StudyError::failed(doing)(error));
+            }
+        };
+        elongation += loading.at(report.time) * report.dt;
+        let (energy, load) = (scene.energy(), load(&scene, &bar.axis()));
+        history.push(elongation, load, energy.stored, energy.dissipated);
+        let watched = match &mut frames {
+            Some(frames) => frames.after(&scene, &report),
+            None => Ok(()),
+        };
+        watched
+            .and_then(|()| progress.after(&scene, &report))
+            .map_err(StudyError::failed("watching the run"))?;
+    }
+    let wall_s = start.elapsed().as_secs_f64();
+    Ok(Finished {
+        history,
+        scene,
+        wall_s,
+        band_width,
+        stopped,
+    })
+}
+
+/// Mean of what both grips pull with, N: a wave that is on its way from one to the other drops out.
+pub(crate) fn load(scene: &Scene<2>, axis: &Vector2<f64>) -> f64 {
+    let pull = |grip| {
+        scene
+            .reaction(grip)
+            .map_or(f64::NAN, |force| force.dot(axis))
+    };
+    0.5 * (pull("right") - pull("left"))
+}
+
+/// The row of a run for a study.
+pub(crate) fn row(
+    study: &str,
+    bar: &Bar,
+    case: &Parameters,
+    finished: &Finished,
+) -> Result<SimulationRow, StudyError> {
+    let (exact, nominal) = (bar.exact(), bar.nominal());
+    let (scene, history) = (&finished.scene, &finished.history);
+    // A run that stopped early has no error of the whole curve: NaN, and no bound holds for it.
+    let reached = history.curve.now().0 / exact.critical_opening();
+    let whole = |error: f64| if reached >= COMPARED { error } else { f64::NAN };
+    let load_error = |exact: &Exact| {
+        let kinks = [exact.peak_elongation(), exact.critical_opening()];
+        let end = COMPARED * bar.exact().critical_opening();
+        let load = |elongation| exact.load(elongation);
+        let error = history.curve.error(load, (0.0, end), &kinks);
+        error.unwrap_or(f64::NAN)
+    };
+    let failed = FailedZone::of(scene, BODY, "opening", 0.5 * exact.critical_opening())
+        .map_err(StudyError::failed("measuring the failed zone"))?;
+    let relative = |value: f64, reference: f64| (value / reference - 1.0).abs();
+    let balance = EnergyBalance::of(scene.energy());
+    // Halfway down, and where the load has gone in the exact solution.
+    let at = |elongation| history.load_at(elongation);
+    let middle = 0.5 * (exact.peak_elongation() + exact.critical_opening());
+    let mut row = SimulationRow::new(study, case);
+    row.particles = scene.particle_count() as u64;
+    row.steps = scene.step();
+    row.wall_s = finished.wall_s;
+    row.errors = Measures::new()
+        .with("load_l2", load_error(&exact))
+        .with("peak", relative(history.curve.peak(), exact.peak_load()))
+        .with(
+            "work",
+            whole(relative(history.curve.work(), exact.energy())),
+        )
+        .with(
+            "dissipated",
+            whole(relative(balance.dissipated, exact.energy())),
+        );
+    row.values = Measures::new()
+        .with("dissipated_ratio", balance.dissipated / exact.energy())
+        .with("energy_imbalance", balance.energy_imbalance().abs())
+        .with("worst_balance", balance.worst_balance)
+        .with("transfer_loss", balance.transfer_loss / exact.energy())
+        .with(
+            "failed_zone_cells",
+            failed.volume / (exact.area * bar.spacing),
+        )
+        .with("middle_load", at(middle) / exact.load(middle))
+        .with(
+            "late_load",
+            at(1.2 * exact.critical_opening()) / exact.peak_load(),
+        )
+        .with("peak_load", history.curve.peak())
+        .with("work", history.curve.work())
+        .with("reached", reached)
+        .with("band", finished.band_width)
+        .with("load_l2_nominal", load_error(&nominal));
+    row.state_hash = state_hash(scene);
+    Ok(row)
+}

@@ -1,0 +1,219 @@
+//! Errors over spacing and step: observed orders, and charts of error against something.
+
+use std::path::Path;
+
+use fissure::diagnostics::fit_slope;
+use fissure::io::plot::{LinePlot, Style};
+use fissure::prelude::*;
+
+use fissure_study::{Field, Parameters, Row, SimulationRow, StudyError, Value};
+
+/// Runs that differ in the spacing alone or in the step alone, and what their errors do.
+pub struct SeriesSet {
+    study: &'static str,
+    runs: Vec<Finished>,
+}
+
+struct Finished {
+    case: Parameters,
+    row: SimulationRow,
+    /// Positions by particle, body after body, m.
+    positions: Vec<Vector2<f64>>,
+}
+
+impl SeriesSet {
+    /// No runs yet.
+    pub fn new(study: &'static str) -> Self {
+        let runs = Vec::new();
+        Self { study, runs }
+    }
+
+    /// Adds a run.
+    pub fn add(&mut self, case: &Parameters, row: &SimulationRow, scene: &Scene<2>) {
+        self.runs.push(Finished {
+            case: case.clone(),
+            row: row.clone(),
+            positions: positions(scene),
+        });
+    }
+
+    /// One row for every error of every series of runs that differ in `h` alone: the order by least
+    /// squares over all spacings and between the two finest. One more for every series that differs
+    /// in `cfl` alone, by the distance between the final positions of neighbouring runs: the order
+    /// in the step at a given spacing, free of the error in space.
+    pub fn orders(&self) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for series in self.series("h") {
+            let names: Vec<&str> = series[0].row.errors.iter().map(|(name, _)| name).collect();
+            for name in names {
+                let errors: Vec<f64> = series
+                    .iter()
+                    .map(|run| run.row.errors.get(name).unwrap_or(f64::NAN))
+                    .collect();
+                let spacings: Vec<f64> = series.iter().map(|run| run.row.h).collect();
+                rows.extend(self.row(&series, "h", name, &spacings, &errors));
+            }
+        }
+        for series in self.series("cfl") {
+            let (mut steps, mut distances) = (Vec::new(), Vec::new());
+            for pair in series.windows(2) {
+                steps.push(pair[0].case.number("cfl").unwrap_or(f64::NAN));
+                distances.push(distance(&pair[0].positions, &pair[1].positions));
+            }
+            rows.extend(self.row(&series, "cfl", "change_of_positions", &steps, &distances));
+        }
+        rows
+    }
+
+    /// Series of runs that differ in `name` alone, each by falling value.
+    fn series(&self, name: &str) -> Vec<Vec<&Finished>> {
+        let mut series: Vec<Vec<&Finished>> = Vec::new();
+        for run in &self.runs {
+            let same = |first: &Finished| rest(&first.case, name).eq(rest(&run.case, name));
+            match series.iter_mut().find(|series| same(series[0])) {
+                Some(series) => series.push(run),
+                None => series.push(vec![run]),
+            }
+        }
+        let value = |run: &Finished| run.case.number(name).unwrap_or(f64::NAN);
+        for series in &mut series {
+            series.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        }
+        series.retain(|series| series.len() > 1);
+        series
+    }
+
+    /// A row, if there are two errors that a logarithm can be taken of.
+    fn row(
+        &self,
+        series: &[&Finished],
+        over: &str,
+        measure: &str,
+        x: &[f64],
+        errors: &[f64],
+    ) -> Option<Row> {
+        let fitted = fit_slope(x, errors).ok()?;
+        let last = x.len() - 2;
+        let finest = fit_slope(&x[last..], &errors[last..]).ok()?;
+        let own = series[0].case.label_without(&[over]);
+        Some(
+            Row::other(self.study)
+                .field("case", "observed order")
+                .field("of", own)
+                .field("over", over)
+                .field("measure", measure)
+                .field("order", fitted.exponent)
+                .field("order_finest", finest.exponent)
+                .field("finest_error", errors[last + 1])
+                .field("runs", Field::from(series.len())),
+        )
+    }
+}
+
+/// Every parameter but one.
+fn rest<'a>(case: &'a Parameters, but: &'a str) -> impl Iterator<Item = (&'static str, &'a Value)> {
+    case.iter().filter(move |(name, _)| *name != but)
+}
+
+/// Positions of all particles by id, body after body.
+pub fn positions(scene: &Scene<2>) -> Vec<Vector2<f64>> {
+    let mut all = Vec::new();
+    for body in scene.bodies() {
+        let first = all.len();
+        all.resize(first + body.particles().len(), Vector2::zeros());
+        for (id, x) in body.particles().id.iter().zip(body.motion().position) {
+            all[first + id.0 as usize] = *x;
+        }
+    }
+    all
+}
+
+/// Root mean square distance of two lists of points, m; NaN if they are of different particles.
+fn distance(a: &[Vector2<f64>], b: &[Vector2<f64>]) -> f64 {
+    if a.len() != b.len() {
+        return f64::NAN;
+    }
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b).norm_squared()).sum();
+    (squares / a.len() as f64).sqrt()
+}
+
+/// Errors of many runs against one quantity, a line per label, both axes logarithmic.
+pub struct ErrorChart {
+    title: String,
+    x_label: &'static str,
+    y_label: String,
+    lines: Vec<(String, Vec<f64>, Vec<f64>)>,
+    style: Style,
+}
+
+/// Lines of one chart: more would not be told apart.
+const MOST_LINES: usize = 12;
+
+impl ErrorChart {
+    /// An empty chart.
+    pub fn new(title: &str, x_label: &'static str, y_label: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            x_label,
+            y_label: format!("{y_label} [1]"),
+            lines: Vec::new(),
+            style: Style::LineAndMarkers,
+        }
+    }
+
+    /// The same with markers alone.
+    #[must_use]
+    pub fn scattered(mut self) -> Self {
+        self.style = Style::Markers;
+        self
+    }
+
+    /// Adds a point; one that a logarithmic axis does not hold is left out.
+    pub fn add(&mut self, label: &str, x: f64, error: f64) {
+        if !(x > 0.0 && error > 0.0 && error.is_finite()) {
+            return;
+        }
+        match self.lines.iter_mut().find(|(known, ..)| known == label) {
+            Some((_, xs, errors)) => {
+                xs.push(x);
+                errors.push(error);
+            }
+            None => self.lines.push((label.to_owned(), vec![x], vec![error])),
+        }
+    }
+
+    /// Draws it with a further line on top, unless it is empty.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save_with(
+        &self,
+        line: Option<(&str, &[f64], &[f64])>,
+        path: &Path,
+    ) -> Result<(), StudyError> {
+        if self.lines.is_empty() {
+            return Ok(());
+        }
+        let mut plot = LinePlot::new(&self.title)
+            .x_label(self.x_label)
+            .y_label(&self.y_label)
+            .log_x()
+            .log_y();
+        for (label, x, errors) in self.lines.iter().take(MOST_LINES) {
+            plot = plot.series(label, x.as_slice(), errors.as_slice(), self.style);
+        }
+        if let Some((label, x, errors)) = line {
+            plot = plot.series(label, x, errors, Style::Dashed);
+        }
+        plot.save(path)
+            .map_err(StudyError::failed(format!("drawing {}", path.display())))
+    }
+
+    /// Draws it, unless it is empty.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), StudyError> {
+        self.save_with(None, path)
+    }
+}

@@ -1,0 +1,58 @@
+//! The bar turned, offset and with other weak places, coarse, through the command line.
+#![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
+
+mod common;
+
+use common::{number, rows};
+
+#[test]
+fn an_aligned_bar_breaks_once_under_every_law() {
+    let laws = "law=prescribed,rankine,no-shear,damaged-shear,rotating";
+    let rows = rows(
+        "bar-orientation",
+        &[
+            "angle=0",
+            "h=0.02",
+            "weak=line",
+            "fill=rotated",
+            "offset=0",
+            laws,
+        ],
+    );
+    assert_eq!(rows.len(), 5);
+    for row in &rows {
+        let (load, energy) = (
+            number(row, "errors", "load_l2"),
+            number(row, "errors", "dissipated"),
+        );
+        assert!(load <= 0.01 && energy <= 1e-6, "{load} {energy} in {row}");
+    }
+}
+
+#[test]
+fn a_turned_bar_locks_less_without_shear_on_the_crack() {
+    let settings = [
+        "angle=45",
+        "h=0.02",
+        "weak=line",
+        "fill=rotated",
+        "offset=0",
+        "law=prescribed,no-shear",
+    ];
+    let rows = rows("bar-orientation", &settings);
+    let [with, without] = [0, 1].map(|i| number(&rows[i], "errors", "load_l2"));
+    assert!(without < 0.5 * with, "{without} without, {with} with");
+}
+
+#[test]
+fn an_imperfection_decides_between_two_lines() {
+    let rows = rows(
+        "bar-bifurcation",
+        &["h=0.02", "solver=quasi-static", "imperfection=0,0.01"],
+    );
+    let [both, one] = [0, 1].map(|i| number(&rows[i], "values", "dissipated_ratio"));
+    assert!((one - 1.0).abs() <= 0.01, "one crack dissipates {one}");
+    assert!(both >= 1.3, "both lines dissipate {both}");
+    let symmetric = number(&rows[0], "values", "load_l2_symmetric");
+    assert!(symmetric <= 0.01, "off the symmetric branch by {symmetric}");
+}

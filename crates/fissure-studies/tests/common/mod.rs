@@ -1,0 +1,26 @@
+//! Studies run through the command line, and their rows.
+#![allow(clippy::unwrap_used, dead_code)] // Each test binary uses its part.
+
+use fissure_studies::studies;
+use fissure_study::execute;
+use serde_json::Value;
+
+/// Result rows of a study with settings, as JSON.
+pub fn rows(study: &str, settings: &[&str]) -> Vec<Value> {
+    let mut arguments = vec!["fissure-studies", study, "--json"];
+    for setting in settings {
+        arguments.extend(["--set", setting]);
+    }
+    let (mut output, mut messages) = (Vec::new(), Vec::new());
+    let code = execute(&studies(), arguments, &mut output, &mut messages);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
+    let text = String::from_utf8(output).unwrap();
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+/// A number of a row; a missing or non-finite one is NaN, which no bound holds for.
+pub fn number(row: &Value, group: &str, name: &str) -> f64 {
+    row[group][name].as_f64().unwrap_or(f64::NAN)
+}

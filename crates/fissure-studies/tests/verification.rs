@@ -1,0 +1,160 @@
+//! The problems with known answers, coarse: errors and observed orders, through the command line.
+#![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
+
+mod common;
+
+use common::{number, rows};
+use serde_json::Value;
+
+/// The order of a measure over `h` in the row of orders.
+fn order(rows: &[Value], measure: &str) -> f64 {
+    let row = rows
+        .iter()
+        .find(|row| row["over"] == "h" && row["measure"] == measure)
+        .unwrap();
+    row["order"].as_f64().unwrap_or(f64::NAN)
+}
+
+/// Runs a study with settings and holds the finest run's errors and the orders to bounds.
+fn holds(study: &str, settings: &[&str], errors: &[(&str, f64)], orders: &[(&str, f64)]) {
+    let rows = rows(study, settings);
+    let finest = rows.iter().rfind(|row| row["errors"].is_object()).unwrap();
+    for (name, bound) in errors {
+        let error = number(finest, "errors", name);
+        assert!(
+            error <= *bound,
+            "{name} = {error} is over {bound} in {finest}"
+        );
+    }
+    for (name, bound) in orders {
+        let order = order(&rows, name);
+        assert!(order >= *bound, "{name} has order {order}, under {bound}");
+    }
+}
+
+#[test]
+fn axis_aligned_waves_converge_with_second_order_on_cpdi() {
+    holds(
+        "axis-aligned-mms",
+        &[
+            "shape=cpdi",
+            "h=0.0625,0.03125",
+            "cfl=0.4",
+            "update=musl",
+            "margin=0",
+            "transfer=flip",
+        ],
+        &[("place_l2", 0.02), ("stress_l2", 0.04)],
+        &[("place_l2", 1.7)],
+    );
+}
+
+#[test]
+fn linear_functions_do_not_converge_where_particles_cross_cells() {
+    let settings = [
+        "shape=linear",
+        "h=0.0625,0.03125",
+        "cfl=0.4",
+        "update=musl",
+        "margin=0",
+        "transfer=flip",
+    ];
+    let rows = rows("axis-aligned-mms", &settings);
+    assert!(order(&rows, "place_l2") <= 0.0, "have they learnt to?");
+}
+
+#[test]
+fn the_vortex_of_small_amplitude_is_followed() {
+    holds(
+        "vortex-mms",
+        &["shape=bspline2", "h=0.125,0.0625", "transfer=flip"],
+        &[("place_l2", 0.05)],
+        &[("place_l2", 1.0)],
+    );
+}
+
+#[test]
+fn a_spinning_disc_has_its_stress_at_the_centre() {
+    holds(
+        "disc-spin",
+        &[
+            "solver=quasi-static",
+            "shape=linear",
+            "h=0.2,0.1",
+            "transfer=flip",
+        ],
+        &[("centre", 0.02), ("stress_l2", 0.1)],
+        &[],
+    );
+}
+
+#[test]
+fn a_bar_vibrates_with_its_frequency() {
+    for ends in ["ends=free-free", "ends=fixed-free"] {
+        let settings = [
+            ends,
+            "shape=linear",
+            "h=0.125,0.0625",
+            "cfl=0.4",
+            "update=musl",
+            "transfer=flip",
+        ];
+        holds(
+            "bar-vibration",
+            &settings,
+            &[("frequency", 0.01), ("energy", 0.01)],
+            &[("frequency", 1.8)],
+        );
+    }
+}
+
+#[test]
+fn a_cantilever_bends_as_the_elastica() {
+    holds("cantilever", &["h=0.05"], &[("deflection", 0.05)], &[]);
+}
+
+#[test]
+fn cooks_membrane_compressible() {
+    holds(
+        "cook",
+        &["material=compressible", "shape=linear", "h=4,2"],
+        &[("displacement", 0.02)],
+        &[("displacement", 1.2)],
+    );
+}
+
+#[test]
+fn cooks_membrane_locks_when_nearly_incompressible() {
+    let rows = rows(
+        "cook",
+        &["material=nearly-incompressible", "shape=linear", "h=2"],
+    );
+    let error = number(&rows[0], "errors", "displacement");
+    assert!(error >= 0.2, "{error}: has the locking gone?");
+}
+
+#[test]
+fn a_pressed_disc_has_the_stresses_of_hondros() {
+    holds(
+        "brazilian",
+        &["shape=linear", "h=0.2,0.1"],
+        &[("diameter_l2", 0.1), ("centre_along", 0.03)],
+        &[("diameter_l2", 1.0)],
+    );
+}
+
+#[test]
+fn waves_that_meet_open_a_crack_as_fast_as_they_should() {
+    let settings = [
+        "energy=area",
+        "shape=linear",
+        "h=0.024390243902439025,0.012345679012345678",
+        "transfer=flip",
+    ];
+    holds(
+        "softening-wave",
+        &settings,
+        &[("rate", 0.05), ("dissipated", 0.06)],
+        &[("dissipated", 0.5)],
+    );
+}
