@@ -8,6 +8,7 @@ mod bar_orientation;
 mod convergence;
 mod filling;
 mod method;
+pub mod nairn;
 mod problem;
 mod softening_wave;
 pub mod tensile_bar;
@@ -26,6 +27,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     )));
     studies.push(Box::new(bar_orientation::BarOrientation));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));
+    studies.extend(nairn::studies());
     studies.extend(fissure_law_studies::studies());
     studies
 }

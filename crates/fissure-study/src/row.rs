@@ -20,6 +20,8 @@ pub enum Field {
     Flag(bool),
     /// A list of real numbers.
     Numbers(Vec<f64>),
+    /// Points of a curve.
+    Pairs(Vec<[f64; 2]>),
     /// Named fields inside this one.
     Group(Fields),
 }
@@ -160,6 +162,12 @@ impl From<String> for Field {
 impl From<Vec<f64>> for Field {
     fn from(numbers: Vec<f64>) -> Self {
         Self::Numbers(numbers)
+    }
+}
+
+impl From<Vec<[f64; 2]>> for Field {
+    fn from(pairs: Vec<[f64; 2]>) -> Self {
+        Self::Pairs(pairs)
     }
 }
 

@@ -91,6 +91,10 @@ fn flatten(prefix: &str, fields: &Fields, cells: &mut Vec<(String, String)>) {
                 let texts: Vec<String> = numbers.iter().map(f64::to_string).collect();
                 texts.join(" ")
             }
+            Field::Pairs(pairs) => {
+                let texts: Vec<String> = pairs.iter().map(|[x, y]| format!("{x}:{y}")).collect();
+                texts.join(" ")
+            }
         };
         cells.push((name, text));
     }

@@ -177,6 +177,8 @@ fn text_of(field: &Field) -> String {
             let texts: Vec<String> = numbers.iter().map(|number| short(*number)).collect();
             format!("[{}]", texts.join(" "))
         }
+        // Too long for a cell; JSON and CSV hold them.
+        Field::Pairs(pairs) => format!("{} points", pairs.len()),
         Field::Group(fields) => {
             let texts: Vec<String> = fields
                 .iter()

@@ -1,0 +1,168 @@
+//! What the studies may choose of the discretisation, and the solver that it makes.
+
+use std::thread::available_parallelism;
+
+use fissure::prelude::*;
+use fissure_study::{Parameter, Parameters, Permitted, StudyError};
+
+/// Shape functions, transfer, band and step of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Numerics {
+    shape: Functions,
+    pub settings: ExplicitSettings,
+    pub spacing: f64,
+    threads: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Functions {
+    Linear,
+    Gimp,
+    Cpdi,
+    Bspline2,
+    Bspline3,
+}
+
+impl Numerics {
+    /// The parameters that [`of`](Self::of) reads: those of the document, and the grid spacing `h`.
+    pub(super) fn parameters(h: f64) -> Vec<Parameter> {
+        let threads = available_parallelism().map_or(1, |n| n.get() as u64);
+        vec![
+            Parameter::number("h", "grid spacing", "m", h, Permitted::above(0.0)),
+            Parameter::choice(
+                "shape",
+                "shape function",
+                "gimp",
+                &["linear", "gimp", "cpdi", "bspline2", "bspline3"],
+            ),
+            Parameter::choice(
+                "transfer",
+                "between particles and grid",
+                "xpic",
+                &["flip", "pic", "apic", "xpic", "fmpm"],
+            ),
+            Parameter::count(
+                "order",
+                "terms of xpic and fmpm",
+                5,
+                Permitted::counts(1..=20),
+            ),
+            Parameter::choice(
+                "band",
+                "width that smears the crack: V_p/A_c as in the document, or the discretisation's",
+                "particle",
+                &["particle", "discretisation"],
+            ),
+            Parameter::choice(
+                "stress",
+                "when it is updated in a step",
+                "musl",
+                &["first", "last", "musl"],
+            ),
+            Parameter::number(
+                "cfl",
+                "step over the time a wave needs across a cell",
+                "1",
+                0.5,
+                Permitted::numbers(0.01..=1.0),
+            ),
+            Parameter::count(
+                "threads",
+                "worker threads",
+                threads,
+                Permitted::counts(1..=256),
+            ),
+        ]
+    }
+
+    pub(super) fn of(case: &Parameters) -> Result<Self, StudyError> {
+        let order = case.size("order")?;
+        let settings = ExplicitSettings {
+            cfl: case.number("cfl")?,
+            transfer: match case.choice("transfer")? {
+                "flip" => Transfer::Flip { pic: 0.0 },
+                "pic" => Transfer::Pic,
+                "apic" => Transfer::Apic,
+                "fmpm" => Transfer::Fmpm { order },
+                _ => Transfer::Xpic { order },
+            },
+            stress_update: match case.choice("stress")? {
+                "first" => StressUpdate::First,
+                "last" => StressUpdate::Last,
+                _ => StressUpdate::Musl,
+            },
+            band: match case.choice("band")? {
+                "discretisation" => BandSource::Discretisation,
+                _ => BandSource::Particle,
+            },
+            ..ExplicitSettings::default()
+        };
+        Ok(Self {
+            shape: match case.choice("shape")? {
+                "linear" => Functions::Linear,
+                "cpdi" => Functions::Cpdi,
+                "bspline2" => Functions::Bspline2,
+                "bspline3" => Functions::Bspline3,
+                _ => Functions::Gimp,
+            },
+            settings,
+            spacing: case.number("h")?,
+            threads: case.size("threads")?,
+        })
+    }
+
+    /// An explicit solver on this grid.
+    pub(super) fn solver<const D: usize>(
+        &self,
+        grid: Grid<D>,
+    ) -> Result<Box<dyn Solver<D>>, StudyError> {
+        let settings = self.settings;
+        let made: Result<Box<dyn Solver<D>>, _> = match self.shape {
+            Functions::Linear => boxed(Explicit::new(grid, shape::Linear, settings)),
+            Functions::Gimp => boxed(Explicit::new(grid, shape::Gimp, settings)),
+            Functions::Cpdi => boxed(Explicit::new(grid, shape::Cpdi, settings)),
+            Functions::Bspline2 => boxed(Explicit::new(grid, shape::Bspline2, settings)),
+            Functions::Bspline3 => boxed(Explicit::new(grid, shape::Bspline3, settings)),
+        };
+        made.map_err(StudyError::failed("setting up the solver"))
+    }
+
+    /// Runs `work` on the threads that were asked for.
+    pub(super) fn on_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, StudyError> + Send,
+    ) -> Result<T, StudyError> {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(StudyError::failed("starting the worker threads"))?
+            .install(work)
+    }
+}
+
+fn boxed<const D: usize, S: Solver<D> + 'static>(
+    made: Result<S, SolveError>,
+) -> Result<Box<dyn Solver<D>>, SolveError> {
+    made.map(|solver| Box::new(solver) as Box<dyn Solver<D>>)
+}
+
+/// Two particles per cell and axis.
+pub(super) fn seeding(spacing: f64) -> Spacing {
+    Spacing(0.5 * spacing)
+}
+
+/// Refuses lengths that are not whole numbers of cells, with the names of their parameters.
+pub(super) fn check_whole_cells(case: &Parameters, lengths: &[&str]) -> Result<(), StudyError> {
+    let spacing = case.number("h")?;
+    for name in lengths {
+        let cells = case.number(name)? / spacing;
+        if !((cells - cells.round()).abs() <= 1e-6 && cells.round() >= 1.0) {
+            return Err(StudyError::combination(
+                case,
+                &["h", name],
+                format!("{name} must be a whole number of cells"),
+            ));
+        }
+    }
+    Ok(())
+}

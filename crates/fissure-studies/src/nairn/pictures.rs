@@ -1,0 +1,107 @@
+//! Writing curves, and drawing bodies coloured by a value of their law.
+
+use std::path::Path;
+
+use fissure::io::plot::{LinePlot, ScatterPlot};
+use fissure::io::table::{Cell, Table};
+use fissure::prelude::*;
+use fissure_study::StudyError;
+
+/// Rows of a curve in files and pictures.
+pub(super) const ROWS: usize = 400;
+
+/// About `count` entries of a column, the first and the last among them.
+pub(super) fn thinned(column: &[f64], count: usize) -> Vec<f64> {
+    let stride = column.len().div_ceil(count).max(1);
+    let whole = column.len().saturating_sub(1) % stride == 0;
+    let thin = column.iter().step_by(stride);
+    thin.chain(column.last().filter(|_| !whole))
+        .copied()
+        .collect()
+}
+
+/// Writes columns of one length as a table.
+pub(super) fn write_columns(path: &Path, columns: &[(&str, &[f64])]) -> Result<(), StudyError> {
+    let failed = || StudyError::failed(format!("writing {}", path.display()));
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let mut table = Table::new(&names).map_err(failed())?;
+    let rows = columns.iter().map(|(_, c)| c.len()).min().unwrap_or(0);
+    for i in 0..rows {
+        let cells = columns.iter().map(|(_, column)| Cell::Number(column[i]));
+        table.row(cells).map_err(failed())?;
+    }
+    table.write(path).map_err(failed())
+}
+
+/// Draws a figure.
+pub(super) fn save(plot: LinePlot<'_>, path: &Path) -> Result<(), StudyError> {
+    plot.save(path)
+        .map_err(StudyError::failed(format!("drawing {}", path.display())))
+}
+
+/// What is drawn of particles: position in the plane of the picture and a value.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Snapshot {
+    pub title: String,
+    pub points: Vec<[f64; 2]>,
+    pub values: Vec<f64>,
+}
+
+impl Snapshot {
+    /// The bodies where they are now, coloured by a value of their laws; 0 where a law has none. Of
+    /// a body in space the slice |z − `middle`| < `half` is drawn.
+    pub(super) fn of<const D: usize>(
+        title: impl Into<String>,
+        scene: &Scene<D>,
+        value: &str,
+        slice: Option<(f64, f64)>,
+    ) -> Self {
+        let mut snapshot = Self {
+            title: title.into(),
+            ..Self::default()
+        };
+        for body in scene.bodies() {
+            let values = body.value(value);
+            for (i, x) in body.motion().position.iter().enumerate() {
+                if slice.is_some_and(|(middle, half)| !((x[D - 1] - middle).abs() < half)) {
+                    continue;
+                }
+                snapshot.points.push([x[0], x[1]]);
+                snapshot.values.push(values.as_ref().map_or(0.0, |v| v[i]));
+            }
+        }
+        snapshot
+    }
+
+    /// The bodies where they are now, coloured by a normal stress, Pa.
+    pub(super) fn of_stress(title: impl Into<String>, scene: &Scene<2>, axis: usize) -> Self {
+        let mut snapshot = Self {
+            title: title.into(),
+            ..Self::default()
+        };
+        for body in scene.bodies() {
+            let motion = body.motion();
+            for (x, stress) in motion.position.iter().zip(motion.stress) {
+                snapshot.points.push([x[0], x[1]]);
+                snapshot.values.push(stress.mandel[axis]);
+            }
+        }
+        snapshot
+    }
+
+    /// Draws it with colours from `low` to `high`.
+    pub(super) fn draw(
+        &self,
+        label: &str,
+        (low, high): (f64, f64),
+        size: f64,
+        path: &Path,
+    ) -> Result<(), StudyError> {
+        ScatterPlot::new(&self.title, &self.points)
+            .colour(label, &self.values)
+            .range(low, high)
+            .particle_size(size)
+            .save(path)
+            .map_err(StudyError::failed(format!("drawing {}", path.display())))
+    }
+}

@@ -1,0 +1,136 @@
+//! Pictures of the bars, if they are asked for: stress-strain curves (fig. 3) and necks (fig. 4).
+
+use std::path::{Path, PathBuf};
+
+use fissure::io::plot::{LinePlot, Style};
+use fissure_study::{Parameters, StudyError};
+
+use super::bar::Bar;
+use super::run::{Finished, reference};
+use crate::nairn::numerics::Numerics;
+use crate::nairn::pictures::{ROWS, save, thinned, write_columns};
+use crate::nairn::reference::Curve;
+
+pub(super) struct Pictures {
+    folder: Option<PathBuf>,
+    curves: Vec<(String, String, Vec<f64>, Vec<f64>)>,
+    references: Vec<(String, Vec<f64>, Vec<f64>)>,
+}
+
+impl Pictures {
+    pub(super) fn new(folder: Option<&Path>) -> Self {
+        Self {
+            folder: folder.map(Path::to_path_buf),
+            curves: Vec::new(),
+            references: Vec::new(),
+        }
+    }
+
+    /// Writes the curve of a run and draws the bar at some strains.
+    pub(super) fn add(
+        &mut self,
+        bar: &Bar,
+        numerics: &Numerics,
+        case: &Parameters,
+        finished: &Finished,
+    ) -> Result<(), StudyError> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        let kind = case.choice("case")?;
+        let mut name = format!(
+            "{kind}-{}-{}",
+            case.choice("shape")?,
+            case.choice("transfer")?
+        );
+        for other in ["plane", "band"] {
+            if case.varying().contains(&other) {
+                name = format!("{name}-{}", case.choice(other)?);
+            }
+        }
+        let history = &finished.history;
+        let thin = |column: &[f64]| thinned(column, ROWS);
+        let (strain, stress) = (thin(&history.strain), thin(&history.stress));
+        write_columns(
+            &folder.join(format!("{name}.csv")),
+            &[
+                ("time [s]", &thin(&history.time)),
+                ("strain", &strain),
+                ("mean_stress [Pa]", &stress),
+                ("dissipated [J]", &thin(&history.dissipated)),
+            ],
+        )?;
+        let label = match kind {
+            "tension" | "necking" | "compression" => "damage [1]",
+            _ => "damage [1], middle plane",
+        };
+        for (number, snapshot) in history.snapshots.iter().enumerate() {
+            let path = folder.join(format!("{name}-{}.png", number + 1));
+            snapshot.draw(label, (0.0, 1.0), 0.5 * numerics.spacing, &path)?;
+        }
+        if let Some((text, _)) = reference(bar, case) {
+            let curve = Curve::read(text, kind, "time", "mean_stress")?;
+            let strain = curve.x.iter().map(|t| t * bar.speed / bar.length).collect();
+            let label = format!("{kind}, independent code");
+            if case.choice("plane")? == "strain" && !self.references.iter().any(|r| r.0 == label) {
+                self.references.push((label, strain, curve.y));
+            }
+        }
+        let magnitude = |column: &[f64]| column.iter().map(|v| v * bar.speed.signum()).collect();
+        self.curves.push((
+            kind.to_owned(),
+            name,
+            magnitude(&strain),
+            magnitude(&stress),
+        ));
+        Ok(())
+    }
+
+    /// Draws the curves of all runs: of the plane and in space, and of each kind.
+    pub(super) fn finish(&self) -> Result<(), StudyError> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        for kind in ["tension", "necking"] {
+            let chosen = |k: &str| k == kind;
+            self.draw(&format!("stress-{kind}.png"), folder, &chosen, false)?;
+        }
+        let plane = |k: &str| matches!(k, "tension" | "necking" | "compression");
+        self.draw("stress-plane.png", folder, &plane, true)?;
+        let solid = |k: &str| matches!(k, "rectangle" | "square" | "circle");
+        self.draw("stress-space.png", folder, &solid, true)
+    }
+
+    fn draw(
+        &self,
+        file: &str,
+        folder: &Path,
+        chosen: &dyn Fn(&str) -> bool,
+        first_of_kind: bool,
+    ) -> Result<(), StudyError> {
+        let mut plot = LinePlot::new("Mean stress of the bar against nominal strain")
+            .x_label("nominal strain [1]")
+            .y_label("mean stress, positive along the load [Pa]");
+        let mut drawn: Vec<&str> = Vec::new();
+        for (kind, name, strain, stress) in &self.curves {
+            if !chosen(kind) || (first_of_kind && drawn.contains(&kind.as_str())) {
+                continue;
+            }
+            drawn.push(kind);
+            plot = plot.series(name, strain, stress, Style::Line);
+        }
+        if drawn.is_empty() {
+            return Ok(());
+        }
+        for (label, strain, stress) in &self.references {
+            if label
+                .split(',')
+                .next()
+                .is_some_and(|kind| drawn.contains(&kind))
+            {
+                plot = plot.series(label, strain, stress, Style::Dashed);
+            }
+        }
+        save(plot, &folder.join(file))
+    }
+}

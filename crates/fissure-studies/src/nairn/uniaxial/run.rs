@@ -1,0 +1,316 @@
+//! Pulling the bars: one row per case.
+
+use fissure::prelude::*;
+use fissure_study::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
+
+use super::bar::{BODY, Bar, Flat, Section};
+use super::pictures::Pictures;
+use crate::nairn::drive::{Drive, drive, energies, row};
+use crate::nairn::failed::Places;
+use crate::nairn::numerics::Numerics;
+use crate::nairn::pictures::Snapshot;
+use crate::nairn::reference::Curve;
+
+/// Samples of a run.
+const SAMPLES: f64 = 1000.0;
+/// Shares of the run at which the bar is drawn.
+const DRAWN: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// What a run leaves.
+#[derive(Clone, Debug, Default)]
+pub(super) struct History {
+    pub time: Vec<f64>,
+    /// Elongation over length.
+    pub strain: Vec<f64>,
+    /// Mean axial stress of the bar, Pa.
+    pub stress: Vec<f64>,
+    pub dissipated: Vec<f64>,
+    pub snapshots: Vec<Snapshot>,
+    /// Nominal strain at which the first particle failed.
+    first_failed: Option<f64>,
+    /// Smallest width over the first one.
+    neck: f64,
+    /// Per particle and sample: dissipated over toughness, opening, axial stress.
+    points: Vec<PointHistory>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct PointHistory {
+    spent: Vec<f64>,
+    stress: Vec<f64>,
+    opening: Vec<f64>,
+    failed: Option<usize>,
+}
+
+pub(super) struct Finished {
+    pub row: SimulationRow,
+    pub history: History,
+    pub stopped: Option<String>,
+}
+
+pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
+    let mut pictures = Pictures::new(rows.out_dir());
+    for (number, case) in cases.iter().enumerate() {
+        rows.progress(&format!(
+            "{} of {}: {}",
+            number + 1,
+            cases.len(),
+            case.label()
+        ));
+        let (bar, numerics) = (Bar::new(case)?, Numerics::of(case)?);
+        let finished = numerics.on_threads(|| match bar.section {
+            Section::Plane(flat) => plane(&bar, flat, &numerics, case),
+            _ => {
+                let (scene, solver) = bar.in_space(&numerics)?;
+                pull(&bar, &numerics, scene, solver, case)
+            }
+        })?;
+        rows.row(finished.row.clone())?;
+        if let Some(reason) = &finished.stopped {
+            rows.note(&format!("the run above stopped early: {reason}"))?;
+        }
+        pictures.add(&bar, &numerics, case, &finished)?;
+    }
+    pictures.finish()
+}
+
+fn plane(
+    bar: &Bar,
+    flat: Flat,
+    numerics: &Numerics,
+    case: &Parameters,
+) -> Result<Finished, StudyError> {
+    let (scene, solver) = bar.in_plane(flat, numerics)?;
+    pull(bar, numerics, scene, solver, case)
+}
+
+fn pull<const D: usize>(
+    bar: &Bar,
+    numerics: &Numerics,
+    mut scene: Scene<D>,
+    mut solver: Box<dyn Solver<D>>,
+    case: &Parameters,
+) -> Result<Finished, StudyError> {
+    let mut history = History {
+        neck: 1.0,
+        ..History::default()
+    };
+    let places = scene.body(BODY).map(Places::of);
+    history.points = vec![PointHistory::default(); scene.particle_count()];
+    let end = bar.end;
+    let (mut next, mut drawn) = (0.0, 0);
+    let done = drive(&mut scene, solver.as_mut(), end, |scene, report| {
+        if report.time >= next || report.time >= end {
+            next += end / SAMPLES;
+            history.sample(bar, scene);
+        }
+        if DRAWN
+            .get(drawn)
+            .is_some_and(|share| report.time >= share * end)
+        {
+            drawn += 1;
+            history
+                .snapshots
+                .push(snapshot(bar, scene, numerics.spacing));
+        }
+        true
+    })?;
+    let row = finished_row(bar, case, &scene, &history, &done, places.as_ref());
+    Ok(Finished {
+        row,
+        history,
+        stopped: done.stopped,
+    })
+}
+
+/// The bar coloured by its shear damage; of a bar in space its middle plane.
+fn snapshot<const D: usize>(bar: &Bar, scene: &Scene<D>, spacing: f64) -> Snapshot {
+    let percent = 100.0 * bar.speed * scene.time() / bar.length;
+    let slice = (D == 3).then(|| {
+        let depth = if bar.section == Section::Circle {
+            bar.width
+        } else {
+            bar.depth
+        };
+        (0.5 * depth, 0.5 * spacing)
+    });
+    let value = if bar.strength() < bar.law.opening.strength || bar.speed < 0.0 {
+        "shear_damage"
+    } else {
+        "normal_damage"
+    };
+    Snapshot::of(
+        format!("{value} at a nominal strain of {percent:.1} %"),
+        scene,
+        value,
+        slice,
+    )
+}
+
+impl History {
+    fn sample<const D: usize>(&mut self, bar: &Bar, scene: &Scene<D>) {
+        let Some(body) = scene.body(BODY) else {
+            return;
+        };
+        let strain = bar.speed * scene.time() / bar.length;
+        let (volume, motion) = (&body.particles().volume, body.motion());
+        let force: f64 = (0..volume.len())
+            .map(|i| volume[i] * motion.stress[i].mandel[0])
+            .sum();
+        self.time.push(scene.time());
+        self.strain.push(strain);
+        self.stress.push(force / volume.iter().sum::<f64>());
+        self.dissipated.push(scene.energy().dissipated);
+        let column = |name| body.value(name).unwrap_or_default();
+        let (energy, failed, opening) = (
+            column("opening_energy"),
+            column("failed"),
+            column("opening"),
+        );
+        let sample = self.time.len() - 1;
+        for (i, id) in body.particles().id.iter().enumerate() {
+            let Some(point) = self.points.get_mut(id.0 as usize) else {
+                continue;
+            };
+            point.spent.push(energy[i] / bar.law.opening.toughness);
+            point.stress.push(motion.stress[i].mandel[0]);
+            point.opening.push(opening[i]);
+            if failed[i] > 0.5 && point.failed.is_none() {
+                point.failed = Some(sample);
+                self.first_failed.get_or_insert(strain);
+            }
+        }
+        // The neck: where along the bar the particles lie closest to its axis.
+        let mut extent = vec![0.0_f64; 64];
+        let middle = 0.5 * bar.width;
+        let now = bar.length * (1.0 + strain);
+        for x in motion.position {
+            let slot = (x[0] / now * 64.0).clamp(0.0, 63.0) as usize;
+            extent[slot] = extent[slot].max((x[1] - middle).abs());
+        }
+        let widest = extent.iter().copied().fold(0.0, f64::max);
+        let filled = extent.iter().copied().filter(|reach| *reach > 0.0);
+        if self.first_failed.is_none() {
+            self.neck = filled.fold(widest, f64::min) / middle;
+        }
+    }
+
+    /// How far the traction of the particle that failed first was from its law while it softened,
+    /// over the strength; and its opening at failure, m.
+    ///
+    /// With linear softening `σ = σ_n (1 − G_I/𝒢_I)`.
+    fn law(&self, bar: &Bar) -> Option<(f64, f64)> {
+        let failed = self.points.iter().filter(|point| point.failed.is_some());
+        let point = failed.min_by_key(|point| point.failed)?;
+        let strength = bar.law.opening.strength;
+        let end = point.failed?;
+        let mut worst = 0.0_f64;
+        for sample in 1..end {
+            if point.spent[sample] > point.spent[sample - 1] {
+                let expected = strength * (1.0 - point.spent[sample]);
+                worst = worst.max((point.stress[sample] - expected).abs() / strength);
+            }
+        }
+        Some((worst, point.opening[end.saturating_sub(1)]))
+    }
+}
+
+fn finished_row<const D: usize>(
+    bar: &Bar,
+    case: &Parameters,
+    scene: &Scene<D>,
+    history: &History,
+    done: &Drive,
+    places: Option<&Places<D>>,
+) -> SimulationRow {
+    let mut row = row("uniaxial", case, scene, done);
+    let sign = bar.speed.signum();
+    let peak = history.stress.iter().map(|s| sign * s);
+    let (at, peak) = peak.enumerate().fold(
+        (0, 0.0),
+        |best, next| if next.1 > best.1 { next } else { best },
+    );
+    let failed = match (scene.body(BODY), places) {
+        (Some(body), Some(places)) => places.failed(body).len(),
+        _ => 0,
+    };
+    let reached = scene.time() / bar.end;
+    row.errors = Measures::new().with("peak", (peak / bar.strength() - 1.0).abs());
+    let brittle = case.choice("case").is_ok_and(|case| case == "tension");
+    let (law, opening) = history
+        .law(bar)
+        .filter(|_| brittle)
+        .unwrap_or((f64::NAN, f64::NAN));
+    if brittle {
+        row.errors.insert("law", law);
+    }
+    if let Some((peak_of_reference, stress)) = against_reference(bar, case, history) {
+        row.errors
+            .insert("reference_peak", (peak / peak_of_reference - 1.0).abs());
+        row.errors.insert("reference_stress", stress);
+    }
+    let ideal = bar.area() * bar.law.opening.toughness;
+    let values = Measures::new()
+        .with("peak_stress", peak)
+        .with(
+            "peak_strain",
+            history.strain.get(at).map_or(0.0, |s| s.abs()),
+        )
+        .with(
+            "first_failed_strain",
+            history.first_failed.map_or(f64::NAN, f64::abs),
+        )
+        .with("failed_particles", failed as f64)
+        .with("neck", history.neck)
+        .with("opening_at_failure", opening)
+        .with("reached", reached);
+    row.values = energies(values, scene);
+    row.values
+        .insert("dissipated_ratio", scene.energy().dissipated / ideal);
+    row
+}
+
+/// Peak of the independent code, Pa, and the mean difference of the stress over it up to 4/5 of the
+/// strain at which its first particle failed.
+fn against_reference(bar: &Bar, case: &Parameters, history: &History) -> Option<(f64, f64)> {
+    let (text, until) = reference(bar, case)?;
+    let curve = Curve::read(text, "uniaxial", "time", "mean_stress").ok()?;
+    let peak = curve.y.iter().copied().fold(0.0, f64::max);
+    let end = (until * bar.length / bar.speed).min(*curve.x.last()?);
+    if !(*history.time.last()? >= end) {
+        return Some((peak, f64::NAN));
+    }
+    let pairs = history.time.iter().zip(&history.stress);
+    let inside = pairs.filter(|(t, _)| **t >= curve.x[0] && **t <= end);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (time, stress) in inside {
+        sum += (stress - curve.at(*time)).abs();
+        count += 1.0;
+    }
+    Some((peak, sum / count / peak))
+}
+
+/// The curve of the independent code for this case, with the nominal strain up to which runs are
+/// compared: where they are not yet told apart by which column fails first.
+pub(super) fn reference(bar: &Bar, case: &Parameters) -> Option<(&'static str, f64)> {
+    let known = case.number("young").ok()? == 1e9
+        && case.number("poisson").ok()? == 0.33
+        && case.number("length").ok()? == 0.04
+        && case.number("width").ok()? == 6e-3
+        && case.number("speed").ok()? == 1.0
+        && bar.law.opening.strength == 30e6
+        && bar.law.opening.toughness == 10e3;
+    if !known || bar.speed < 0.0 {
+        return None;
+    }
+    let stress = matches!(bar.section, Section::Plane(Flat::Stress));
+    match (bar.law.shear.strength == 20e6, stress) {
+        (true, false) => Some((include_str!("../../../tests/data/nairn/tension.csv"), 0.028)),
+        (false, false) => Some((include_str!("../../../tests/data/nairn/necking.csv"), 0.05)),
+        (false, true) => Some((
+            include_str!("../../../tests/data/nairn/necking_plane_stress.csv"),
+            0.05,
+        )),
+        (true, true) => None,
+    }
+}
