@@ -11,6 +11,7 @@ mod method;
 pub mod nairn;
 mod problem;
 mod softening_wave;
+mod stress_intensity;
 pub mod tensile_bar;
 pub mod verification;
 mod work_precision;
@@ -24,6 +25,9 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     studies.push(Box::new(work_precision::WorkPrecision));
     studies.push(Box::new(problem::Verification(
         softening_wave::SofteningWave,
+    )));
+    studies.push(Box::new(problem::Verification(
+        stress_intensity::StressIntensity,
     )));
     studies.push(Box::new(bar_orientation::BarOrientation));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));

@@ -9,6 +9,7 @@ mod disc_spin;
 mod fitting;
 mod manufactured;
 mod nodal_force;
+mod two_discs;
 mod vortex_mms;
 
 pub(crate) use axis_aligned_mms::AxisAlignedMms;
@@ -28,5 +29,6 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         Box::new(Verification(cantilever::Cantilever)),
         Box::new(Verification(cook::Cook)),
         Box::new(Verification(brazilian::Brazilian)),
+        Box::new(Verification(two_discs::TwoDiscs)),
     ]
 }
