@@ -5,12 +5,12 @@
 mod exact;
 
 use exact::{GLASS, griffith};
-use fissure_diagnostics::{MeasureError, state_hash};
 use fissure_diagnostics::fracture::{
     Annulus, CrackExtraction, EnergyReleaseGrowth, FractureEnergy, GrowthDirection, Intensity,
     Rates, TipField, energy_release, hoop_angle, opening_intensity, opening_profile,
     volume_integral,
 };
+use fissure_diagnostics::{MeasureError, state_hash};
 use fissure_grid::{Grid, shape};
 use fissure_materials::{AnisotropicDamage, Isotropic, Mode, Scale, softening};
 use fissure_particles::{Block, Spacing};
