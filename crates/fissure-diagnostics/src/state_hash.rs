@@ -1,4 +1,4 @@
-//! One number that two scenes share if and only if their particles do, to the last bit.
+//! One number that two scenes share if and only if their particles and cracks do, to the last bit.
 
 use fissure_scene::{Body, Scene};
 
@@ -7,7 +7,8 @@ use fissure_scene::{Body, Scene};
 /// FNV-1a of 64 bits (Fowler, Noll and Vo) over, for each body in the scene's order,
 /// the number of its particles and, in ascending order of the particles' ids: id, mass, reference
 /// volume, position, velocity, deformation gradient, stress (Mandel components), affine velocity if
-/// there is one, and the law's named values. Numbers go in with the bits of their `f64`, lowest
+/// there is one, and the law's named values; then, for each crack, the number of its vertices and their
+/// positions and jumps. Numbers go in with the bits of their `f64`, lowest
 /// byte first, so it tells `0.0` from `-0.0`, and every machine agrees on it as far as its
 /// arithmetic does.
 ///

@@ -5,12 +5,12 @@
 mod exact;
 
 use exact::{GLASS, griffith};
-use fissure_diagnostics::MeasureError;
 use fissure_diagnostics::fracture::{
     Annulus, CrackExtraction, EnergyReleaseGrowth, FractureEnergy, GrowthDirection, Intensity,
     Rates, TipField, energy_release, hoop_angle, opening_intensity, opening_profile,
     volume_integral,
 };
+use fissure_diagnostics::{MeasureError, state_hash};
 use fissure_grid::{Grid, shape};
 use fissure_materials::{AnisotropicDamage, Isotropic, Mode, Scale, softening};
 use fissure_particles::{Block, Spacing};
@@ -324,11 +324,14 @@ fn opening_profiles_from_both_tips() {
     let opening =
         |x: &Vector2<f64>| 4.0 * sigma / modulus * (HALF * HALF - x.x * x.x).max(0.0).sqrt();
     let turn = Rotation2::new(0.6);
+    let before = state_hash(&scene);
+    let crack = &mut scene.cracks_mut()[0];
     let carried = crack.carry(|_, x| VertexMotion {
         displacement: turn * x - x,
         jump: turn * Vector2::new(1.0 / 3.0, 1.0) * opening(x),
     });
     carried.unwrap();
+    assert_ne!(state_hash(&scene), before);
     let k = sigma * (PI * HALF).sqrt();
     for end in End::BOTH {
         let profile = opening_profile(&scene.cracks()[0], end);
