@@ -36,6 +36,7 @@ mod cracking;
 mod elasticity;
 mod ellipse;
 mod incremental;
+mod mixed_mode;
 mod mode;
 mod orthotropic;
 mod sheet;
@@ -47,10 +48,11 @@ mod tests;
 
 use fissure_tensor::{Matrix3, Tangent};
 
-pub use self::crack::{AnisotropicDamageState, MixedMode};
+pub use self::crack::AnisotropicDamageState;
 pub use self::incremental::{
     EllipticalDamage, IncrementalDamage, IncrementalState, SteppedCircleDamage,
 };
+pub use self::mixed_mode::MixedMode;
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
 

@@ -18,8 +18,8 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
-    Scale, Softening, check_parameter,
+    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale, Softening,
+    check_parameter,
     error::{check_below, check_scaled_toughness},
     softening::{Linear, opening},
     sound::{below, sound},
@@ -361,66 +361,6 @@ impl<S: Softening> Point<'_, S> {
     }
 }
 
-impl<S: Softening> Cracking for Decohesive<S> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.toughness * scale.toughness
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.strength * scale.strength
-    }
-
-    fn critical_opening(&self, scale: &Scale) -> f64 {
-        self.softening.critical() * self.toughness(scale) / self.strength(scale)
-    }
-
-    fn band_limit(&self, scale: &Scale) -> f64 {
-        self.point(scale).band_limit()
-    }
-
-    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        let (traction, normal) = match self.normal {
-            Normal::Prescribed(normal) => {
-                let normal = normal.normalize();
-                (stress.normal_component(&normal), normal)
-            }
-            Normal::Rankine => {
-                let spectrum = stress.spectrum();
-                (spectrum.values[0], spectrum.vectors[0])
-            }
-        };
-        Initiation {
-            value: traction / self.strength(scale) - 1.0,
-            normal,
-        }
-    }
-
-    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        let considered = match self.normal {
-            Normal::Rankine => true,
-            Normal::Prescribed(only) => only.normalize().cross(normal).norm() <= 1e-12,
-        };
-        considered.then(|| stress.normal_component(normal) / self.strength(scale) - 1.0)
-    }
-
-    fn cracks(&self, state: &DecohesiveState) -> Vec<Crack> {
-        if state.width == 0.0 {
-            return Vec::new();
-        }
-        vec![Crack {
-            normal: Vector3::from(state.normal),
-            opening: state.opening,
-            width: state.width,
-            strength_ratio: self.softening.ratio(state.softened),
-            dissipated_fraction: self.softening.area(state.softened),
-            failed: state.failed,
-        }]
-    }
-
-    fn irreversible(&self, state: &DecohesiveState) -> Vec<f64> {
-        vec![state.softened, f64::from(u8::from(state.failed))]
-    }
-}
-
+mod cracking;
 #[cfg(test)]
 mod tests;

@@ -27,7 +27,8 @@ mod sheet;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
 use self::plane::PlaneAt;
-use super::crack::{AnisotropicDamageState, CrackAt, MixedMode, Moved};
+use super::crack::{AnisotropicDamageState, CrackAt, Moved};
+use super::mixed_mode::MixedMode;
 use super::mode::Mode;
 use super::tangent::width_rate;
 use crate::error::{check_below, check_scaled_toughness};

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Cracking;
 use crate::testing::{assert_tangent, assert_wave_speed};
 use crate::{Control, Leg, Path, Point as MaterialPoint, PointError};
 use fissure_tensor::rotation;

@@ -31,6 +31,7 @@
 //! traction has no shear by construction; where two principal strains cross, it changes direction
 //! at once and the response is steep.
 
+mod cracking;
 mod decohesion;
 mod dense;
 mod geological_flow;
@@ -50,8 +51,8 @@ pub use mode_one::{ModeOne, Shear, Unloading};
 pub use state::{MultiCrackState, Plane};
 
 use crate::{
-    Biot, Crack, Cracking, Increment, Initiation, Isotropic, Material, MaterialError, Response,
-    Scale, check_parameter,
+    Biot, Increment, Initiation, Isotropic, Material, MaterialError, Response, Scale,
+    check_parameter,
     error::{check_below, check_scaled_toughness},
     material::{DIFFERENCE_STEP, difference_tangent},
     sound::sound,
@@ -376,59 +377,5 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         out[0] = planes.len() as f64;
         out[1] = planes.iter().filter(|plane| plane.failed).count() as f64;
         out[2] = planes.iter().map(|plane| plane.opening).fold(0.0, f64::max);
-    }
-}
-
-impl<const N: usize, D: Decohesion> Cracking for MultiCrack<N, D> {
-    fn toughness(&self, scale: &Scale) -> f64 {
-        self.decohesion.scaled(scale).toughness()
-    }
-
-    fn strength(&self, scale: &Scale) -> f64 {
-        self.decohesion.scaled(scale).strength()
-    }
-
-    fn critical_opening(&self, scale: &Scale) -> f64 {
-        let decohesion = self.decohesion.scaled(scale);
-        decohesion.critical() * decohesion.toughness() / decohesion.strength()
-    }
-
-    fn band_limit(&self, scale: &Scale) -> f64 {
-        let law = self.scaled(scale);
-        let one = law.limit();
-        match self.planes {
-            Planes::Multiple(Some(angle)) => one.min(angle.sin().powi(2) / law.unique_above(1.0)),
-            _ => one,
-        }
-    }
-
-    fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        Some(self.decohesion.scaled(scale).along(stress, normal))
-    }
-
-    fn associated(&self) -> bool {
-        self.planes != Planes::Rotating && self.decohesion.associated()
-    }
-
-    fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.decohesion.scaled(scale).initiation(stress)
-    }
-
-    fn cracks(&self, state: &Self::State) -> Vec<Crack> {
-        let crack = |plane: &Plane| Crack {
-            normal: plane.normal(),
-            opening: plane.opening,
-            width: plane.width,
-            strength_ratio: self.decohesion.ratio(plane.softened),
-            dissipated_fraction: self.decohesion.dissipated_fraction(plane.softened),
-            failed: plane.failed,
-        };
-        state.planes().iter().map(crack).collect()
-    }
-
-    fn irreversible(&self, state: &Self::State) -> Vec<f64> {
-        // Of all that there is room for, so that a plane that starts makes the list no longer.
-        let number = |plane: &Plane| [plane.softened, f64::from(u8::from(plane.failed))];
-        state.slots().iter().flat_map(number).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! Several planes: order, threshold, consistency, many planes, and a fuzz.
 
 use super::*;
+use crate::Cracking;
 use crate::contract::Random;
 
 const BAND: Band = Band::Uniform(0.01);

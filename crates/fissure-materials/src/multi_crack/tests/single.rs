@@ -1,6 +1,7 @@
 //! One plane: against the single-crack law, energies, contact.
 
 use super::*;
+use crate::Cracking;
 use crate::{Decohesive, Normal, contract::Random};
 
 /// With the choices of the document the law is the single-crack one.
