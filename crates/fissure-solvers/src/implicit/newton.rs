@@ -34,6 +34,8 @@ const ROUND_OFF: f64 = 1e-14;
 pub(super) struct Attempt<'a, S, const D: usize> {
     pub transfers: Transfers<'a, S, D>,
     pub constraints: &'a Constraints<D>,
+    /// Prescribed speeds at the start of the step, in the order of the held nodes.
+    pub start_speeds: Vec<[f64; D]>,
     pub settings: &'a ImplicitSettings,
     pub scheme: Scheme,
     pub dt: f64,
@@ -177,13 +179,10 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
     /// What held components have to change by.
     fn held_changes(&self, displacement: &[SVector<f64, D>]) -> Vec<SVector<f64, D>> {
         let mut held = vec![SVector::zeros(); displacement.len()];
-        for node in &self.constraints.held {
-            let start = &self.starts[node.node].velocity;
+        for (node, start) in self.constraints.held.iter().zip(&self.start_speeds) {
             for k in 0..node.count {
                 let direction = &node.directions[k];
-                let wanted = self
-                    .scheme
-                    .held(direction.dot(start), node.speeds[k], self.dt);
+                let wanted = self.scheme.held(start[k], node.speeds[k], self.dt);
                 let change = wanted - direction.dot(&displacement[node.node]);
                 held[node.node] += direction * change;
             }

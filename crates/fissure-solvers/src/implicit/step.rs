@@ -108,9 +108,15 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
             simd: Simd::widest(),
         };
         let (time, end) = (scene.time(), scene.time() + dt);
-        self.constraints
-            .collect(scene, &self.grid, &self.shape, &self.placement, end)
-            .map_err(refused)?;
+        // Twice: for the speeds at either end.
+        let mut start_speeds = Vec::new();
+        for time in [time, end] {
+            let held = &self.constraints.held;
+            start_speeds = held.iter().map(|held| held.speeds).collect();
+            self.constraints
+                .collect(scene, &self.grid, &self.shape, &self.placement, time)
+                .map_err(refused)?;
+        }
         self.system
             .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;
@@ -153,6 +159,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         let attempt = Attempt {
             transfers,
             constraints: &self.constraints,
+            start_speeds,
             settings: &self.settings,
             scheme: self.scheme,
             dt,

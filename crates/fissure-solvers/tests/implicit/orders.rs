@@ -78,7 +78,6 @@ fn newmark_and_generalized_alpha_are_of_second_order() {
     let alpha = |spectral_radius| Integration::GeneralizedAlpha { spectral_radius };
     for integration in [newmark, alpha(1.0), alpha(0.8), alpha(0.0)] {
         let orders = [6, 12, 24].map(|steps| observed(integration, steps));
-        println!("{orders:?}");
         assert!(
             (orders[0] - 2.0).abs() <= 0.3,
             "{integration:?}: {orders:?}"
