@@ -11,6 +11,7 @@ use super::scheme::{Scheme, Start};
 use super::settings::ImplicitSettings;
 use super::statistics::{NewtonStop, StepStatistics};
 use crate::constraints::Constraints;
+use crate::crack_motion::{carry, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::system::System;
@@ -73,16 +74,22 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
     }
 
     fn prepare(&mut self, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        if self.placement.is_current(scene) {
+        if self.placement.is_current(scene) && !self.placement.cracks_have_moved(&self.grid) {
             return Ok(());
         }
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
+                refine(scene, &self.grid);
                 self.force_scale = 0.0;
                 self.carried.clear();
                 self.pace.next = self.settings.step;
             }
             check_columns(scene)?;
+            if !scene.contacts().is_empty() {
+                return Err(SolveError::Unsupported {
+                    what: "contact between bodies in an implicit step",
+                });
+            }
             // Before the particles are sorted: recalled accelerations are in their present order.
             self.carried.align(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
@@ -191,6 +198,10 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         scene: &mut Scene<D>,
         mut report: Report<D>,
     ) -> Result<Report<D>, SolveError> {
+        let (links, displacement) = (&self.system.links, &self.displacement);
+        carry(scene, &self.grid, &mut self.placement, |node| {
+            links.number(node).map(|_| displacement[node])
+        })?;
         for body in scene.bodies_mut() {
             body.commit()?;
         }
@@ -254,6 +265,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             dt,
             energy,
             reactions,
+            contact_forces: Vec::new(),
             iterations: balanced.iterations,
         }
     }

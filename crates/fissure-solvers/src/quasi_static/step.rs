@@ -91,6 +91,13 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         })
     }
 
+    /// Negative pivots of the last tangent factorised, its damping included: 0 on a stable branch; each
+    /// stands for a direction in which equilibrium is not stable. Of a tangent that is not symmetric
+    /// those of the symmetric part.
+    pub fn negative_pivots(&self) -> usize {
+        self.system.negative_pivots()
+    }
+
     /// The tangent stiffness of the scene as it is, without what conditions hold, and the positions of
     /// its nodes, m: a row of blocks for each node that a particle reaches.
     ///

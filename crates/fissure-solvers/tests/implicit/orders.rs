@@ -54,10 +54,6 @@ fn observed(integration: Integration, steps: usize) -> f64 {
         (x - reference.0).hypot(v - reference.1)
     };
     let (coarse, fine) = (error(steps), error(2 * steps));
-    println!(
-        "{integration:?}: {steps} steps {coarse:.3e}, {} steps {fine:.3e}",
-        2 * steps
-    );
     (coarse / fine).log2()
 }
 

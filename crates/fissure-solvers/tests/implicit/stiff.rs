@@ -1,7 +1,7 @@
-//! Steps of any length, and bodies next to one another that are not alike (X1, X2, X8).
+//! Steps of any length, and bodies next to one another that are not alike (X1, X2, X8, X14).
 
 use fissure_grid::{Grid, shape};
-use fissure_materials::Isotropic;
+use fissure_materials::{Decohesive, Isotropic, Normal, Scale, softening};
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{Hold, Plane, Scene, Solver, Velocity};
 use fissure_solvers::{
@@ -58,6 +58,59 @@ fn x8_steps_of_any_length_are_stable() {
     });
     assert!(blown);
     assert!(period() > 0.0);
+}
+
+/// X14: a bar that has failed through and through goes on in finite steps, and has dissipated its toughness.
+#[test]
+fn x14_a_bar_that_has_split_goes_on() {
+    let law = Decohesive {
+        elastic: Isotropic {
+            density: 1000.0,
+            young: 1e6,
+            poisson: 0.0,
+        },
+        strength: 1e3,
+        toughness: 10.0,
+        softening: softening::Linear,
+        normal: Normal::Rankine,
+    };
+    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
+    let along = Hold::Component(vector![1.0, 0.0]);
+    let place = |from, to| Block::new([from, 0.0], [to, 0.25]);
+    let weak = Scale {
+        strength: 0.9,
+        ..Scale::default()
+    };
+    scene
+        .fill("bar", law, &place(0.0, 0.625), &Spacing(0.0625))
+        .unwrap()
+        .set_scale("bar", |x| (0.25..0.375).contains(&x[0]), weak)
+        .unwrap();
+    for (name, from, speed) in [("left", -0.125, -0.01), ("right", 0.625, 0.01)] {
+        let ends = place(from, from + 0.125);
+        let pull = Velocity(move |t: f64| speed * (t / 0.2).min(1.0));
+        scene
+            .rigid(name, &ends, &Spacing(0.0625), along, pull)
+            .unwrap();
+    }
+    let mut solver = Implicit::new(
+        wide(),
+        shape::Linear,
+        ImplicitSettings {
+            step: 0.01,
+            ..ImplicitSettings::default()
+        },
+    )
+    .unwrap();
+    while scene.time() < 3.0 {
+        let report = solver.step(&mut scene, 3.0).unwrap();
+        assert!(report.dt > 1e-7 && report.energy.kinetic_particles.is_finite());
+    }
+    // The weak column opens by 2 G/(0.9 σ) of the 0.06 m, and takes G over the section of 0.25 m².
+    let dissipated = scene.energy().dissipated / (10.0 * 0.25);
+    assert!((dissipated - 1.0).abs() <= 0.02, "{dissipated}");
+    let pull = scene.reaction("right").unwrap()[0];
+    assert!(pull.abs() <= 0.02 * 0.9 * 1e3 * 0.25, "{pull}");
 }
 
 /// A bar of two materials that is drawn at one end.
@@ -161,11 +214,12 @@ fn x1_and_x2_bodies_that_are_not_alike() {
                 ..ImplicitSettings::default()
             };
             let mut solver = Implicit::new(wide(), shape::Linear, settings).unwrap();
-            let report = solver.step(&mut scene, 10.0).unwrap();
+            solver.step(&mut scene, 10.0).unwrap();
+            // Iterations do not run away with the contrast.
             let products: usize = solver.statistics().products.iter().sum();
-            println!(
-                "{ratio:e} {poisson} {linear:?}: {} Newton, {products} products",
-                report.iterations
+            assert!(
+                products <= 400,
+                "{ratio:e} {poisson} {linear:?}: {products}"
             );
             let pull = (
                 scene.reaction("left").unwrap()[0],

@@ -72,7 +72,6 @@ fn newton_converges_quadratically_with_the_analytic_tangent() {
         assert_eq!(statistics.stop, Some(NewtonStop::Converged));
         assert_eq!(statistics.cuts, 0);
         let residuals = &statistics.residuals;
-        println!("{residuals:?}");
         // Once it is near, r' <= C r^2 with one C; round-off ends it.
         let near = residuals[1..]
             .windows(2)
