@@ -74,6 +74,9 @@ impl Jacobian<'_> {
     }
 }
 
+/// Multiplies a vector of the active nodes by the Jacobian.
+pub(crate) type Multiply<'a> = dyn FnMut(&[f64], &mut [f64]) -> Result<(), SolveError> + 'a;
+
 /// Why no correction was found.
 #[derive(Debug)]
 pub(crate) enum NoCorrection {
@@ -220,7 +223,7 @@ impl<const D: usize> System<D> {
         iterative: &Iterative,
         accuracy: f64,
         preconditioner: &dyn Preconditioner,
-        product: &mut dyn FnMut(&[f64], &mut [f64]) -> Result<(), SolveError>,
+        product: &mut Multiply<'_>,
     ) -> Result<(Vec<f64>, Outcome), SolveError> {
         if let Some(changes) = self.held_changes(held) {
             let mut taken = Ok(());
@@ -290,13 +293,13 @@ fn krylov<O: Operator>(
 }
 
 /// A product in components along the axes as one in those along the held nodes' own directions.
-struct Turned<'a, const D: usize> {
+struct Turned<'a, 'b, const D: usize> {
     freedoms: &'a Freedoms<D>,
     size: usize,
-    product: &'a mut dyn FnMut(&[f64], &mut [f64]) -> Result<(), SolveError>,
+    product: &'a mut Multiply<'b>,
 }
 
-impl<const D: usize> Operator for Turned<'_, D> {
+impl<const D: usize> Operator for Turned<'_, '_, D> {
     type Error = SolveError;
 
     fn size(&self) -> usize {

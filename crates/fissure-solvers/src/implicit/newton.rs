@@ -17,7 +17,7 @@ use crate::constraints::Constraints;
 use crate::equilibrium::balance::{At, internal_forces, strain};
 use crate::equilibrium::choice::{Iterative, LinearSolver, Preconditioning, Product};
 use crate::equilibrium::stiffness::times;
-use crate::equilibrium::system::{Jacobian, NoCorrection, System};
+use crate::equilibrium::system::{Jacobian, Multiply, NoCorrection, System};
 use crate::linear::{Identity, Preconditioner, norm};
 use crate::nodes::NodeSums;
 use crate::placement::outside;
@@ -180,9 +180,9 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
     fn held_changes(&self, displacement: &[SVector<f64, D>]) -> Vec<SVector<f64, D>> {
         let mut held = vec![SVector::zeros(); displacement.len()];
         for (node, start) in self.constraints.held.iter().zip(&self.start_speeds) {
-            for k in 0..node.count {
+            for (k, start) in start.iter().enumerate().take(node.count) {
                 let direction = &node.directions[k];
-                let wanted = self.scheme.held(start[k], node.speeds[k], self.dt);
+                let wanted = self.scheme.held(*start, node.speeds[k], self.dt);
                 let change = wanted - direction.dot(&displacement[node.node]);
                 held[node.node] += direction * change;
             }
@@ -327,21 +327,20 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             let system = &*system;
             let mut by_differences;
             let mut by_tangent;
-            let product: &mut dyn FnMut(&[f64], &mut [f64]) -> Result<(), SolveError> =
-                if product == Product::Differences {
-                    by_differences = |x: &[f64], y: &mut [f64]| {
-                        self.difference(scene, system, sums, displacement, now, x, y)
-                    };
-                    &mut by_differences
-                } else {
-                    let scene = &*scene;
-                    by_tangent = move |x: &[f64], y: &mut [f64]| {
-                        y.copy_from_slice(&times(&system.links, scene, tangents, x));
-                        jacobian.complete_product::<D>(x, y);
-                        Ok(())
-                    };
-                    &mut by_tangent
+            let product: &mut Multiply<'_> = if product == Product::Differences {
+                by_differences = |x: &[f64], y: &mut [f64]| {
+                    self.difference(scene, system, sums, displacement, now, x, y)
                 };
+                &mut by_differences
+            } else {
+                let scene = &*scene;
+                by_tangent = move |x: &[f64], y: &mut [f64]| {
+                    y.copy_from_slice(&times(&system.links, scene, tangents, x));
+                    jacobian.complete_product::<D>(x, y);
+                    Ok(())
+                };
+                &mut by_tangent
+            };
             system.iterate(force, held, &iterative, accuracy, &*preconditioner, product)?
         };
         statistics.products.push(outcome.iterations);

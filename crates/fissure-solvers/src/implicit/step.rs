@@ -231,13 +231,13 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         };
         let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
         let mut held = self.constraints.held.iter().peekable();
-        for node in 0..self.masses.len() {
+        for (node, u) in displacement.iter().enumerate() {
             let mass = self.masses[node];
             let prescribed = held.next_if(|held| held.node == node);
             if mass <= 0.0 {
                 continue;
             }
-            let (u, start) = (&displacement[node], &self.starts[node].velocity);
+            let start = &self.starts[node].velocity;
             let end = self.end(node, u);
             let (way, (first, last)) = self.scheme.work(start, &end.velocity, u, dt);
             let internal_end = sums.internal_force(node);
