@@ -1,6 +1,8 @@
 //! The parts of an implicit step on an elastic block: 2D with 99,904 unknowns, 3D with 95,232. Assembling
 //! runs on all threads, the rest on one.
 //!
+//! "Newton step" is a whole load step: two iterations, so three calls of the law.
+//!
 //! `cargo bench -p fissure-benches --bench implicit`
 
 #![allow(missing_docs)] // criterion's macros make undocumented functions
@@ -76,11 +78,6 @@ fn parts<const D: usize>(
     group.sample_size(10);
     let (matrix, positions) = solver.stiffness(&mut scene)?;
     let mut matrix = held(matrix, &positions);
-    println!(
-        "{name}: {} unknowns, {} particles",
-        matrix.size(),
-        scene.particle_count()
-    );
     let b = vec![1.0; matrix.size()];
     group.bench_function("law and assembly", |bencher| {
         bencher.iter(|| {

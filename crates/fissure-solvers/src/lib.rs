@@ -14,6 +14,8 @@ mod equilibrium;
 mod explicit;
 mod groups;
 #[cfg(feature = "implicit")]
+mod implicit;
+#[cfg(feature = "implicit")]
 pub mod linear;
 mod loads;
 mod nodes;
@@ -25,7 +27,11 @@ mod transfers;
 mod window;
 
 pub use band::BandSource;
+#[cfg(feature = "implicit")]
+pub use equilibrium::choice::{Iterative, LinearSolver, Method, Preconditioning, Product};
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};
+#[cfg(feature = "implicit")]
+pub use implicit::{Implicit, ImplicitSettings, Integration, NewtonStop, StepStatistics};
 pub use placement::Placement;
 #[cfg(feature = "implicit")]
 pub use quasi_static::{QuasiStatic, QuasiStaticSettings};

@@ -29,7 +29,7 @@ pub(crate) struct Batch {
 ///
 /// Tiles have 2^D colours, like a chessboard's two: the windows of tiles of one colour do not
 /// overlap. Particles are sorted by colour first, so that a pass can take one colour after another.
-/// Within a colour they are sorted by group (see [`Splits`]): windows of one tile but of two groups
+/// Within a colour they are sorted by group (see `splits.rs`): windows of one tile but of two groups
 /// overlap too.
 ///
 /// Sorting is stable, and particles keep their order until one leaves the window of the tile it

@@ -78,7 +78,10 @@ pub mod prelude {
     pub use fissure_scene::*;
     pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     #[cfg(feature = "implicit")]
-    pub use fissure_solvers::{QuasiStatic, QuasiStaticSettings};
+    pub use fissure_solvers::{
+        Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, Method, NewtonStop,
+        Preconditioning, Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
+    };
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     // The module too: `vector!` expands to paths into it.
     pub use nalgebra::{self, SVector, Vector2, vector};

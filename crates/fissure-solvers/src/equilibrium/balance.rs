@@ -16,14 +16,14 @@ use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
-/// Trial motion, stresses and tangents for nodal displacements.
+/// Trial motion and stresses for nodal displacements, and tangents where there is room for them.
 pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
     band: BandSource,
     dt: f64,
-    tangents: &mut [Vec<Tangent>],
+    mut tangents: Option<&mut [Vec<Tangent>]>,
 ) -> Result<SweepTotals, SolveError> {
     let (step, time) = (scene.step() + 1, scene.time());
     let mut totals = SweepTotals::default();
@@ -40,9 +40,11 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
             viscosity: None,
         };
         let runs = &transfers.placement.runs[index];
-        let part = body
-            .sweep_with_tangents(runs, &kernel, &sweep, &mut tangents[index])
-            .map_err(|failure| failure.at(body, step, time))?;
+        let part = match tangents.as_mut() {
+            Some(tangents) => body.sweep_with_tangents(runs, &kernel, &sweep, &mut tangents[index]),
+            None => body.sweep(runs, &kernel, &sweep),
+        };
+        let part = part.map_err(|failure| failure.at(body, step, time))?;
         totals = totals.merge(part);
     }
     Ok(totals)

@@ -181,6 +181,13 @@ impl<const D: usize> Links<D> {
         (number != NONE).then_some(number as usize)
     }
 
+    /// Adds `share` times a vector of the active nodes to one of all nodes.
+    pub(crate) fn add(&self, vector: &[f64], share: f64, field: &mut [SVector<f64, D>]) {
+        for (&node, part) in self.active.iter().zip(vector.chunks_exact(D)) {
+            field[node as usize] += SVector::from_column_slice(part) * share;
+        }
+    }
+
     /// Where the active nodes are, m.
     pub(crate) fn positions<S>(&self, transfers: &Transfers<'_, S, D>) -> Vec<[f64; D]> {
         let (grid, placement) = (transfers.grid, transfers.placement);

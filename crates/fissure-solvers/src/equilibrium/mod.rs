@@ -3,11 +3,13 @@
 //!
 //! `links` lists which nodes a particle reaches at the start of the step, `kernel` strains the
 //! particles, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
-//! conditions hold.
+//! conditions hold, `system` solves for a correction, `pace` chooses step lengths.
 
 pub(crate) mod balance;
+pub(crate) mod choice;
 pub(crate) mod freedoms;
 pub(crate) mod kernel;
 pub(crate) mod links;
+pub(crate) mod pace;
 pub(crate) mod stiffness;
 pub(crate) mod system;

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::links::{Link, Links, Member, Patch};
-use crate::linear::BlockMatrix;
+use crate::linear::{BlockMatrix, BlockPattern};
 
 /// Blocks of patches that are computed before they are added, in one order, to the matrix.
 const BATCH: usize = 1 << 17;
@@ -113,6 +113,107 @@ impl<const D: usize> Stiffness<D> {
     }
 }
 
+/// The stiffness of the trial state times a vector of the active nodes, without a matrix.
+pub(crate) fn times<const D: usize>(
+    links: &Links<D>,
+    scene: &Scene<D>,
+    tangents: &[Vec<Tangent>],
+    x: &[f64],
+) -> Vec<f64> {
+    match D {
+        2 => times_with::<D, 4>(links, scene, tangents, x),
+        _ => times_with::<D, 6>(links, scene, tangents, x),
+    }
+}
+
+fn times_with<const D: usize, const V: usize>(
+    links: &Links<D>,
+    scene: &Scene<D>,
+    tangents: &[Vec<Tangent>],
+    x: &[f64],
+) -> Vec<f64> {
+    let mut y = vec![0.0; x.len()];
+    let work = |patch: &Patch<'_, D>, forces: &mut [SVector<f64, D>]| {
+        for member in patch.members {
+            let point = Strained::<D, V>::new(patch, member, scene, tangents);
+            point.add_forces(patch.nodes, x, forces);
+        }
+    };
+    each_patch(links, SVector::zeros(), work, |node, force| {
+        let y = &mut y[D * node..D * (node + 1)];
+        y.iter_mut().zip(force.iter()).for_each(|(y, f)| *y += f);
+    });
+    y
+}
+
+/// The diagonal blocks of the stiffness of the trial state.
+pub(crate) fn diagonal_blocks<const D: usize>(
+    links: &Links<D>,
+    scene: &Scene<D>,
+    tangents: &[Vec<Tangent>],
+) -> BlockMatrix<D> {
+    match D {
+        2 => diagonal_blocks_with::<D, 4>(links, scene, tangents),
+        _ => diagonal_blocks_with::<D, 6>(links, scene, tangents),
+    }
+}
+
+fn diagonal_blocks_with<const D: usize, const V: usize>(
+    links: &Links<D>,
+    scene: &Scene<D>,
+    tangents: &[Vec<Tangent>],
+) -> BlockMatrix<D> {
+    let count = links.active.len();
+    let mut diagonal = BlockMatrix::zeros(BlockPattern::of_elements(count, std::iter::empty()));
+    let work = |patch: &Patch<'_, D>, blocks: &mut [SMatrix<f64, D, D>]| {
+        for member in patch.members {
+            Strained::<D, V>::new(patch, member, scene, tangents).add_diagonal(blocks);
+        }
+    };
+    each_patch(
+        links,
+        SMatrix::zeros(),
+        work,
+        |node, block: &SMatrix<f64, D, D>| {
+            diagonal.blocks[node] += block;
+        },
+    );
+    diagonal
+}
+
+/// Calls `work` on every patch with `zero` for each of its nodes, and `add` on what it made of them, in
+/// one order.
+fn each_patch<const D: usize, T: Clone + Send + Sync>(
+    links: &Links<D>,
+    zero: T,
+    work: impl Fn(&Patch<'_, D>, &mut [T]) + Sync,
+    mut add: impl FnMut(usize, &T),
+) {
+    let chunks: Vec<usize> = (0..links.patches()).step_by(CHUNK).collect();
+    for batch in chunks.chunks(CHUNK) {
+        let parts: Vec<Vec<T>> = batch
+            .par_iter()
+            .map(|&first| {
+                let mut numbers = Vec::new();
+                for patch in first..(first + CHUNK).min(links.patches()) {
+                    let patch = links.patch(patch);
+                    let start = numbers.len();
+                    numbers.resize(start + patch.nodes.len(), zero.clone());
+                    work(&patch, &mut numbers[start..]);
+                }
+                numbers
+            })
+            .collect();
+        for (&first, part) in batch.iter().zip(&parts) {
+            let patches = first..(first + CHUNK).min(links.patches());
+            let nodes = patches.flat_map(|patch| links.patch(patch).nodes);
+            for (&node, number) in nodes.zip(part) {
+                add(node as usize, number);
+            }
+        }
+    }
+}
+
 /// Patches that a thread works on at a time.
 const CHUNK: usize = 64;
 
@@ -175,6 +276,44 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
             }
         }
         strain
+    }
+
+    /// Adds the forces that answer the displacements `x` of the active nodes.
+    fn add_forces(&self, nodes: &[u32], x: &[f64], forces: &mut [SVector<f64, D>]) {
+        let mut strain = SMatrix::<f64, V, 1>::zeros();
+        let mut gradient_sum = SMatrix::<f64, D, D>::zeros();
+        let mut radial = 0.0;
+        for (link, &node) in self.links.iter().zip(nodes) {
+            let first = D * node as usize;
+            let u = SVector::<f64, D>::from_column_slice(&x[first..first + D]);
+            let gradient = self.relative * link.gradient;
+            strain += self.strain(&gradient, link.weight) * u;
+            gradient_sum += u * gradient.transpose();
+            radial += link.weight * u[0];
+        }
+        let stress = self.tangent * strain;
+        let turning = gradient_sum * self.stress;
+        let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress * radial;
+        for (link, force) in self.links.iter().zip(forces) {
+            let gradient = self.relative * link.gradient;
+            *force += self.strain(&gradient, link.weight).tr_mul(&stress) + turning * gradient;
+            force[0] += hoop * link.weight;
+        }
+    }
+
+    /// Adds the blocks of every node with itself.
+    fn add_diagonal(&self, blocks: &mut [SMatrix<f64, D, D>]) {
+        let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress;
+        for (link, block) in self.links.iter().zip(blocks) {
+            let gradient = self.relative * link.gradient;
+            let strain = self.strain(&gradient, link.weight);
+            *block += strain.tr_mul(&(self.tangent * strain));
+            let turning = gradient.dot(&(self.stress * gradient));
+            for axis in 0..D {
+                block[(axis, axis)] += turning;
+            }
+            block[(0, 0)] += hoop * link.weight * link.weight;
+        }
     }
 
     /// Adds the blocks of every pair of nodes; `nodes` is kept for its memory.

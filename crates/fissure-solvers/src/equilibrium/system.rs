@@ -2,14 +2,18 @@
 
 use fissure_grid::Shape;
 use fissure_materials::Tangent;
-use fissure_scene::Scene;
+use fissure_scene::{Scene, SolveError};
 use nalgebra::SVector;
 
+use super::choice::{Iterative, Method, Preconditioning};
 use super::freedoms::Freedoms;
 use super::links::Links;
-use super::stiffness::Stiffness;
+use super::stiffness::{Stiffness, diagonal_blocks};
 use crate::constraints::Constraints;
-use crate::linear::{Direct, LinearError};
+use crate::linear::{
+    BlockMatrix, Diagonal, Direct, Identity, Incomplete, KrylovSettings, LinearError, NodeBlocks,
+    Operator, Outcome, Preconditioner, conjugate_gradients, gmres,
+};
 use crate::transfers::Transfers;
 
 /// Unknowns, matrix and factorisation of a step; what depends on the pattern alone is kept while
@@ -20,6 +24,78 @@ pub(crate) struct System<const D: usize> {
     pub freedoms: Freedoms<D>,
     pub stiffness: Stiffness<D>,
     direct: Option<Direct<D>>,
+}
+
+/// The derivative of the unbalanced forces, with its sign turned: `stiffness` times the tangent plus
+/// `inertia` times the masses of the active nodes.
+#[derive(Clone, Copy)]
+pub(crate) struct Jacobian<'a> {
+    pub stiffness: f64,
+    pub inertia: f64,
+    pub masses: &'a [f64],
+}
+
+impl Jacobian<'_> {
+    /// Of equilibrium without inertia.
+    pub(crate) const STATIC: Self = Self {
+        stiffness: 1.0,
+        inertia: 0.0,
+        masses: &[],
+    };
+
+    /// From a stiffness.
+    fn complete<const D: usize>(&self, matrix: &mut BlockMatrix<D>) {
+        if self.stiffness != 1.0 {
+            matrix
+                .blocks
+                .iter_mut()
+                .for_each(|block| *block *= self.stiffness);
+        }
+        for (node, mass) in self.masses.iter().enumerate() {
+            matrix.add_to_diagonal(node, self.inertia * mass);
+        }
+    }
+
+    /// The nodal masses.
+    pub(crate) fn mass_preconditioner<const D: usize>(&self) -> Diagonal {
+        let inertia = self.inertia;
+        Diagonal::new(self.masses.iter().flat_map(|mass| [inertia * mass; D]))
+    }
+
+    /// From a stiffness times `x`.
+    pub(crate) fn complete_product<const D: usize>(&self, x: &[f64], product: &mut [f64]) {
+        product.iter_mut().for_each(|y| *y *= self.stiffness);
+        let nodes = product.chunks_exact_mut(D).zip(x.chunks_exact(D));
+        for ((product, x), mass) in nodes.zip(self.masses) {
+            for (y, x) in product.iter_mut().zip(x) {
+                *y += self.inertia * mass * x;
+            }
+        }
+    }
+}
+
+/// Multiplies a vector of the active nodes by the Jacobian.
+pub(crate) type Multiply<'a> = dyn FnMut(&[f64], &mut [f64]) -> Result<(), SolveError> + 'a;
+
+/// Why no correction was found.
+#[derive(Debug)]
+pub(crate) enum NoCorrection {
+    /// The linear system has no usable solution.
+    Linear,
+    /// A difference of residuals could not be taken.
+    Refused(SolveError),
+}
+
+impl From<LinearError> for NoCorrection {
+    fn from(_: LinearError) -> Self {
+        Self::Linear
+    }
+}
+
+impl From<SolveError> for NoCorrection {
+    fn from(error: SolveError) -> Self {
+        Self::Refused(error)
+    }
 }
 
 impl<const D: usize> System<D> {
@@ -46,27 +122,37 @@ impl<const D: usize> System<D> {
         self.stiffness.assemble(&self.links, scene, tangents);
     }
 
-    /// Solves `K δu = force − K δu_held` and adds `δu` to what is free of `displacement`; `held` has
-    /// the change of the held components, as vectors of all nodes.
+    /// The held components' changes of the active nodes, from those of all nodes; `None` if all are zero.
+    fn held_changes(&self, held: &[SVector<f64, D>]) -> Option<Vec<f64>> {
+        let active = self.links.active.iter();
+        let changes: Vec<f64> = active
+            .flat_map(|&node| held[node as usize].iter().copied())
+            .collect();
+        changes
+            .iter()
+            .any(|change| *change != 0.0)
+            .then_some(changes)
+    }
+
+    /// Solves `J δu = force − J δu_held` by a factorisation; returns the free components of `δu` of the
+    /// active nodes. `held` has the changes of the held components, as vectors of all nodes.
     #[allow(clippy::too_many_arguments)] // The system is made of all of them.
     pub(crate) fn correct<S: Shape<D>>(
         &mut self,
         scene: &Scene<D>,
         transfers: &Transfers<'_, S, D>,
         tangents: &[Vec<Tangent>],
+        jacobian: Jacobian<'_>,
         mut force: Vec<f64>,
         held: &[SVector<f64, D>],
         damping: f64,
-        displacement: &mut [SVector<f64, D>],
-    ) -> Result<(), LinearError> {
+    ) -> Result<Vec<f64>, LinearError> {
         self.assemble(scene, tangents);
+        let changes = self.held_changes(held);
         let matrix = &mut self.stiffness.matrix;
-        let active = &self.links.active;
-        let changes: Vec<SVector<f64, D>> = active.iter().map(|&n| held[n as usize]).collect();
-        if changes.iter().any(|change| change.amax() > 0.0) {
-            let forces = matrix.times(&changes);
-            let components = forces.iter().flat_map(|v| v.iter());
-            force.iter_mut().zip(components).for_each(|(f, k)| *f -= k);
+        jacobian.complete(matrix);
+        if let Some(changes) = changes {
+            take_off(&mut force, |product| matrix.multiply(&changes, product));
         }
         self.freedoms.take_out(matrix, &mut force);
         let direct = match &mut self.direct {
@@ -79,9 +165,152 @@ impl<const D: usize> System<D> {
         direct.factorise(matrix, damping)?;
         direct.solve(matrix, &mut force)?;
         self.freedoms.turn_back(&mut force);
-        for (&node, change) in active.iter().zip(force.chunks_exact(D)) {
-            displacement[node as usize] += SVector::from_column_slice(change);
+        Ok(force)
+    }
+
+    /// Negative pivots of the last factorisation.
+    pub(crate) fn negative_pivots(&self) -> usize {
+        self.direct.as_ref().map_or(0, Direct::negative_pivots)
+    }
+
+    /// The same by Krylov iterations with the assembled matrix, to a relative residual `accuracy`.
+    #[allow(clippy::too_many_arguments)] // The system is made of all of them.
+    pub(crate) fn iterate_assembled(
+        &mut self,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+        jacobian: Jacobian<'_>,
+        mut force: Vec<f64>,
+        held: &[SVector<f64, D>],
+        iterative: &Iterative,
+        accuracy: f64,
+    ) -> Result<(Vec<f64>, Outcome), LinearError> {
+        self.assemble(scene, tangents);
+        let changes = self.held_changes(held);
+        let matrix = &mut self.stiffness.matrix;
+        jacobian.complete(matrix);
+        if let Some(changes) = changes {
+            take_off(&mut force, |product| matrix.multiply(&changes, product));
         }
+        self.freedoms.take_out(matrix, &mut force);
+        let preconditioner: Box<dyn Preconditioner> = match iterative.preconditioner {
+            Preconditioning::None => Box::new(Identity),
+            Preconditioning::Mass => Box::new(jacobian.mass_preconditioner::<D>()),
+            Preconditioning::NodeBlocks => Box::new(NodeBlocks::new(matrix)?),
+            Preconditioning::Incomplete => Box::new(match iterative.method {
+                Method::ConjugateGradients => Incomplete::cholesky(matrix)?,
+                Method::Gmres => Incomplete::lu(matrix)?,
+            }),
+        };
+        let mut x = vec![0.0; force.len()];
+        let Ok(outcome) = krylov(
+            iterative,
+            accuracy,
+            matrix,
+            &*preconditioner,
+            &force,
+            &mut x,
+        );
+        self.freedoms.turn_back(&mut x);
+        Ok((x, outcome))
+    }
+
+    /// The same with a function that multiplies a vector of the active nodes by the Jacobian.
+    pub(crate) fn iterate(
+        &self,
+        mut force: Vec<f64>,
+        held: &[SVector<f64, D>],
+        iterative: &Iterative,
+        accuracy: f64,
+        preconditioner: &dyn Preconditioner,
+        product: &mut Multiply<'_>,
+    ) -> Result<(Vec<f64>, Outcome), SolveError> {
+        if let Some(changes) = self.held_changes(held) {
+            let mut taken = Ok(());
+            take_off(&mut force, |image| taken = product(&changes, image));
+            taken?;
+        }
+        self.freedoms.turn(&mut force);
+        let mut x = vec![0.0; force.len()];
+        let mut operator = Turned {
+            freedoms: &self.freedoms,
+            size: force.len(),
+            product,
+        };
+        let outcome = krylov(
+            iterative,
+            accuracy,
+            &mut operator,
+            preconditioner,
+            &force,
+            &mut x,
+        )?;
+        self.freedoms.turn_back(&mut x);
+        Ok((x, outcome))
+    }
+
+    /// The diagonal blocks of the Jacobian as a preconditioner, without a matrix.
+    pub(crate) fn node_blocks(
+        &self,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+        jacobian: Jacobian<'_>,
+    ) -> Result<NodeBlocks<D>, LinearError> {
+        let mut diagonal = diagonal_blocks(&self.links, scene, tangents);
+        jacobian.complete(&mut diagonal);
+        let mut nothing = vec![0.0; diagonal.size()];
+        self.freedoms.take_out(&mut diagonal, &mut nothing);
+        NodeBlocks::new(&diagonal)
+    }
+}
+
+/// `force −= product`.
+fn take_off(force: &mut [f64], product: impl FnOnce(&mut [f64])) {
+    let mut image = vec![0.0; force.len()];
+    product(&mut image);
+    force.iter_mut().zip(&image).for_each(|(f, y)| *f -= y);
+}
+
+fn krylov<O: Operator>(
+    iterative: &Iterative,
+    accuracy: f64,
+    operator: &mut O,
+    preconditioner: &dyn Preconditioner,
+    b: &[f64],
+    x: &mut [f64],
+) -> Result<Outcome, O::Error> {
+    let settings = KrylovSettings {
+        tolerance: accuracy,
+        max_iterations: iterative.max_iterations,
+        restart: iterative.restart,
+    };
+    match iterative.method {
+        Method::ConjugateGradients => {
+            conjugate_gradients(operator, preconditioner, b, x, &settings)
+        }
+        Method::Gmres => gmres(operator, preconditioner, b, x, &settings),
+    }
+}
+
+/// A product in components along the axes as one in those along the held nodes' own directions.
+struct Turned<'a, 'b, const D: usize> {
+    freedoms: &'a Freedoms<D>,
+    size: usize,
+    product: &'a mut Multiply<'b>,
+}
+
+impl<const D: usize> Operator for Turned<'_, '_, D> {
+    type Error = SolveError;
+
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), SolveError> {
+        let mut along_axes = x.to_vec();
+        self.freedoms.turn_back(&mut along_axes);
+        (self.product)(&along_axes, y)?;
+        self.freedoms.turn(y);
         Ok(())
     }
 }

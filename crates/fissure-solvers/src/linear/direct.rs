@@ -5,6 +5,10 @@
 //! is found once. Every solution is checked against the matrix and, where that helps, refined
 //! with its residual.
 //!
+//! `L U` with pivots sought across rows is slow (its columns fill as those of `Aᵀ A` would): a tangent
+//! that is not symmetric is solved by GMRES with the factor of its symmetric part, and factorised itself
+//! only where that does not converge.
+//!
 //! One thread, whatever the pool: a parallel factorisation would change the last bits.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -19,7 +23,8 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::blocks::{BlockMatrix, BlockPattern};
 use super::dissection::nested_dissection;
-use super::krylov::norm;
+use super::krylov::{KrylovSettings, Operator, gmres, norm};
+use super::preconditioner::Preconditioner;
 use super::unsymmetric::Unsymmetric;
 use super::{Factor, LinearError};
 
@@ -29,16 +34,19 @@ const SYMMETRIC: f64 = 1e-9;
 /// A relative residual below this is a solution.
 const SOLVED: f64 = 1e-6;
 /// Refinement stops below this relative residual.
-const REFINED: f64 = 1e-8;
+const REFINED: f64 = 1e-10;
 /// Most steps of refinement.
 const REFINEMENTS: usize = 4;
+
+/// Most products of GMRES with the factor of a symmetric part, before the matrix is factorised itself.
+const MOST_PRODUCTS: usize = 60;
 
 /// What a solution is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solved {
     /// `|A x − b| / |b|` of the scaled system, damping included.
     pub residual: f64,
-    /// Steps of refinement taken.
+    /// Steps of refinement taken, or products of GMRES.
     pub refinements: usize,
 }
 
@@ -59,6 +67,7 @@ pub struct Direct<const D: usize> {
     scale: Vec<f64>,
     damping: f64,
     factor: Option<Factor>,
+    symmetric: bool,
     negative_pivots: usize,
 }
 
@@ -102,7 +111,6 @@ impl<const D: usize> Direct<D> {
         let request = StackReq::any_of(&[
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
         ]);
         Ok(Self {
             pattern: pattern.clone(),
@@ -118,6 +126,7 @@ impl<const D: usize> Direct<D> {
             scale: Vec::new(),
             damping: 0.0,
             factor: None,
+            symmetric: true,
             negative_pivots: 0,
         })
     }
@@ -142,8 +151,9 @@ impl<const D: usize> Direct<D> {
         self.symbolic.len_val()
     }
 
-    /// Factorises a matrix, scaled and with `damping` added to its scaled diagonal: by Cholesky
-    /// where it is symmetric and positive, else by `L D Lᵀ` where symmetric, else by `L U`.
+    /// Factorises a matrix, scaled and with `damping` added to its scaled diagonal: by `L Lᵀ` where it is
+    /// positive, else by `L D Lᵀ`, else by `L U`. Of a matrix that is not symmetric this is the symmetric
+    /// part, and [`solve`](Self::solve) iterates.
     ///
     /// # Errors
     /// [`LinearError::Pattern`] for a matrix of another pattern, [`LinearError::Singular`] for one
@@ -160,20 +170,23 @@ impl<const D: usize> Direct<D> {
         if !asymmetry.is_finite() {
             return Err(LinearError::NotFinite);
         }
-        if asymmetry > SYMMETRIC {
-            return self.factorise_unsymmetric(matrix);
-        }
         self.fill(matrix);
         self.factor_values.resize(self.symbolic.len_val(), 0.0);
+        self.symmetric = asymmetry <= SYMMETRIC;
         if self.cholesky() {
             self.factor = Some(Factor::Cholesky);
-            return Ok(());
-        }
-        if self.signed_cholesky() {
+        } else if self.signed_cholesky() {
             self.factor = Some(Factor::SignedCholesky);
-            return Ok(());
+        } else {
+            self.factorise_unsymmetric(matrix)?;
         }
-        self.factorise_unsymmetric(matrix)
+        Ok(())
+    }
+
+    /// Whether the matrix is symmetric; of one that is not, the symmetric part is factorised unless
+    /// [`factor`](Self::factor) says otherwise.
+    pub fn is_symmetric(&self) -> bool {
+        self.symmetric
     }
 
     fn factorise_unsymmetric(&mut self, matrix: &BlockMatrix<D>) -> Result<(), LinearError> {
@@ -187,7 +200,7 @@ impl<const D: usize> Direct<D> {
         Ok(())
     }
 
-    /// The lower triangle of the scaled and damped matrix.
+    /// The lower triangle of the symmetric part of the scaled and damped matrix.
     fn fill(&mut self, matrix: &BlockMatrix<D>) {
         let mut next = 0;
         for node in 0..self.pattern.nodes() {
@@ -198,12 +211,13 @@ impl<const D: usize> Direct<D> {
                     if other < node {
                         continue;
                     }
-                    // Row `other` of this column is the mirror of the row's entry.
-                    let block = &matrix.blocks[self.pattern.mirror(k)];
+                    let (upper, lower) =
+                        (&matrix.blocks[k], &matrix.blocks[self.pattern.mirror(k)]);
                     let first = if other == node { axis } else { 0 };
                     for a in first..D {
                         let row = D * other + a;
-                        let mut value = block[(a, axis)] * self.scale[row] * self.scale[column];
+                        let mean = 0.5 * (lower[(a, axis)] + upper[(axis, a)]);
+                        let mut value = mean * self.scale[row] * self.scale[column];
                         if row == column {
                             value += self.damping;
                         }
@@ -262,9 +276,12 @@ impl<const D: usize> Direct<D> {
 
     /// Solves in place of the right side with the held factorisation of `matrix`.
     ///
+    /// The residual is refined where that helps; with a factor of the symmetric part alone GMRES takes it
+    /// for the preconditioner. Where that does not get there, the matrix is factorised by `L U` after all.
+    ///
     /// # Errors
-    /// [`LinearError::Singular`] if there is no factorisation or the residual of the solution, refined
-    /// as far as may be, is over 1e-6 of the right side (NaN included).
+    /// [`LinearError::Singular`] if there is no factorisation or the residual of the solution is over
+    /// 1e-6 of the right side (NaN included).
     pub fn solve(
         &mut self,
         matrix: &BlockMatrix<D>,
@@ -273,72 +290,133 @@ impl<const D: usize> Direct<D> {
         if self.factor.is_none() {
             return Err(LinearError::Singular);
         }
-        let scaled = |v: &[f64], scale: &[f64]| -> Vec<f64> {
-            v.iter().zip(scale).map(|(v, s)| v * s).collect()
-        };
-        let wanted = scaled(right, &self.scale);
-        let size = norm(&wanted);
-        if size == 0.0 {
-            right.fill(0.0);
-            return Ok(Solved {
-                residual: 0.0,
-                refinements: 0,
-            });
+        let wanted: Vec<f64> = right.iter().zip(&self.scale).map(|(r, s)| r * s).collect();
+        let (mut x, mut solved) = self.solve_scaled(matrix, &wanted)?;
+        if !(solved.residual <= SOLVED) && self.factor != Some(Factor::Lu) {
+            self.factorise_unsymmetric(matrix)?;
+            (x, solved) = self.solve_scaled(matrix, &wanted)?;
         }
-        let mut x = wanted.clone();
-        self.back_substitute(&mut x)?;
-        let mut product = vec![0.0; x.len()];
-        let (mut best, mut last) = (x.clone(), f64::INFINITY);
-        let mut refinements = 0;
-        loop {
-            // Residual of the scaled and damped system.
-            matrix.multiply(&scaled(&x, &self.scale), &mut product);
-            let rest: Vec<f64> = (0..x.len())
-                .map(|i| wanted[i] - product[i] * self.scale[i] - self.damping * x[i])
-                .collect();
-            let residual = norm(&rest) / size;
-            if !(residual < last) {
-                break;
-            }
-            best.clone_from(&x);
-            last = residual;
-            if residual <= REFINED || refinements == REFINEMENTS {
-                break;
-            }
-            let mut correction = rest;
-            self.back_substitute(&mut correction)?;
-            x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
-            refinements += 1;
-        }
-        if !(last <= SOLVED) {
+        if !(solved.residual <= SOLVED) {
             return Err(LinearError::Singular);
         }
-        for ((r, x), s) in right.iter_mut().zip(&best).zip(&self.scale) {
+        for ((r, x), s) in right.iter_mut().zip(&x).zip(&self.scale) {
             *r = x * s;
         }
-        Ok(Solved {
-            residual: last,
-            refinements,
-        })
+        Ok(solved)
     }
 
-    fn back_substitute(&mut self, x: &mut [f64]) -> Result<(), LinearError> {
+    fn solve_scaled(
+        &self,
+        matrix: &BlockMatrix<D>,
+        wanted: &[f64],
+    ) -> Result<(Vec<f64>, Solved), LinearError> {
+        let mut operator = Scaled {
+            matrix,
+            scale: &self.scale,
+            damping: self.damping,
+        };
+        let mut x = vec![0.0; wanted.len()];
+        if !self.symmetric && self.factor != Some(Factor::Lu) {
+            let settings = KrylovSettings {
+                tolerance: REFINED,
+                max_iterations: MOST_PRODUCTS,
+                restart: MOST_PRODUCTS,
+            };
+            let Ok(outcome) = gmres(&mut operator, self, wanted, &mut x, &settings);
+            let solved = Solved {
+                residual: outcome.residual,
+                refinements: outcome.iterations,
+            };
+            return Ok((x, solved));
+        }
+        let size = norm(wanted);
+        let mut solved = Solved {
+            residual: 0.0,
+            refinements: 0,
+        };
+        if size == 0.0 {
+            return Ok((x, solved));
+        }
+        solved.residual = f64::INFINITY;
+        let mut rest = wanted.to_vec();
+        let mut refined = x.clone();
+        for refinements in 0..=REFINEMENTS {
+            self.back_substitute(&mut rest)?;
+            refined.iter_mut().zip(&rest).for_each(|(x, c)| *x += c);
+            operator.product(&refined, &mut rest);
+            rest.iter_mut().zip(wanted).for_each(|(r, b)| *r = b - *r);
+            let residual = norm(&rest) / size;
+            if !(residual < solved.residual) {
+                break;
+            }
+            x.clone_from(&refined);
+            solved = Solved {
+                residual,
+                refinements,
+            };
+            if residual <= REFINED {
+                break;
+            }
+        }
+        Ok((x, solved))
+    }
+
+    fn back_substitute(&self, x: &mut [f64]) -> Result<(), LinearError> {
         let rows = x.len();
         let column = MatMut::from_column_major_slice_mut(x, rows, 1);
-        let stack = MemStack::new(&mut self.memory);
-        match (self.factor, &mut self.unsymmetric) {
+        let request = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+        let mut memory = MemBuffer::try_new(request).map_err(|_| LinearError::Memory)?;
+        let stack = MemStack::new(&mut memory);
+        match (self.factor, &self.unsymmetric) {
             (Some(Factor::Cholesky), _) => LltRef::new(&self.symbolic, &self.factor_values)
                 .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
             (Some(Factor::SignedCholesky), _) => LdltRef::new(&self.symbolic, &self.factor_values)
                 .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
             (Some(Factor::Lu), Some(lu)) => {
-                lu.back_substitute(
-                    PermRef::new_checked(&self.order, &self.inverse, rows),
-                    column,
-                );
+                let columns = PermRef::new_checked(&self.order, &self.inverse, rows);
+                lu.back_substitute(columns, column)?;
             }
             _ => return Err(LinearError::Singular),
         }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Preconditioner for Direct<D> {
+    fn apply(&self, r: &[f64], z: &mut [f64]) {
+        z.copy_from_slice(r);
+        if self.back_substitute(z).is_err() {
+            z.fill(f64::NAN);
+        }
+    }
+}
+
+/// The scaled and damped matrix.
+struct Scaled<'a, const D: usize> {
+    matrix: &'a BlockMatrix<D>,
+    scale: &'a [f64],
+    damping: f64,
+}
+
+impl<const D: usize> Scaled<'_, D> {
+    fn product(&self, x: &[f64], y: &mut [f64]) {
+        let scaled: Vec<f64> = x.iter().zip(self.scale).map(|(x, s)| x * s).collect();
+        self.matrix.multiply(&scaled, y);
+        for ((y, x), s) in y.iter_mut().zip(x).zip(self.scale) {
+            *y = *y * s + self.damping * x;
+        }
+    }
+}
+
+impl<const D: usize> Operator for Scaled<'_, D> {
+    type Error = std::convert::Infallible;
+
+    fn size(&self) -> usize {
+        self.matrix.size()
+    }
+
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Self::Error> {
+        self.product(x, y);
         Ok(())
     }
 }

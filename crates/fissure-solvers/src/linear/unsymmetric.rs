@@ -78,10 +78,8 @@ impl<const D: usize> Unsymmetric<D> {
             Default::default(),
         )
         .map_err(|_| LinearError::Memory)?;
-        let request = StackReq::any_of(&[
-            factorize_supernodal_numeric_lu_scratch::<u32, f64>(&symbolic, Default::default()),
-            solve_in_place_scratch::<u32, f64>(size, 1, Par::Seq),
-        ]);
+        let request =
+            factorize_supernodal_numeric_lu_scratch::<u32, f64>(&symbolic, Default::default());
         Ok(Self {
             pattern: pattern.clone(),
             by_columns: vec![0.0; rows.len()],
@@ -138,15 +136,22 @@ impl<const D: usize> Unsymmetric<D> {
         .map_err(|_| LinearError::Singular)
     }
 
-    pub(super) fn back_substitute(&mut self, columns: PermRef<'_, u32>, right: MatMut<'_, f64>) {
+    pub(super) fn back_substitute(
+        &self,
+        columns: PermRef<'_, u32>,
+        right: MatMut<'_, f64>,
+    ) -> Result<(), LinearError> {
         let size = self.row_order.len();
+        let request = solve_in_place_scratch::<u32, f64>(size, 1, Par::Seq);
+        let mut memory = MemBuffer::try_new(request).map_err(|_| LinearError::Memory)?;
         self.numeric.solve_in_place_with_conj(
             PermRef::new_checked(&self.row_order, &self.row_inverse, size),
             columns,
             Conj::No,
             right,
             Par::Seq,
-            MemStack::new(&mut self.memory),
+            MemStack::new(&mut memory),
         );
+        Ok(())
     }
 }

@@ -11,7 +11,8 @@ use crate::crack_motion::{carry, refine};
 use crate::equilibrium::balance::{
     At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
 };
-use crate::equilibrium::system::System;
+use crate::equilibrium::pace::Pace;
+use crate::equilibrium::system::{Jacobian, System};
 use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::{Placement, check_columns, check_until, outside};
@@ -28,8 +29,7 @@ pub struct QuasiStatic<S, const D: usize> {
     internal: NodeSums<D>,
     displacement: Vec<SVector<f64, D>>,
     tangents: Vec<Vec<Tangent>>,
-    /// Length of the next step, s.
-    next_step: f64,
+    pace: Pace,
     /// Largest reaction so far, N: what residuals are measured by.
     force_scale: f64,
     /// Nodal displacements of the last step were mapped to the particles' velocities.
@@ -82,11 +82,20 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
-            next_step: settings.step,
+            pace: Pace {
+                next: settings.step,
+            },
             force_scale: 0.0,
             has_stepped: false,
             recalled: false,
         })
+    }
+
+    /// Negative pivots of the last tangent factorised, its damping included: 0 on a stable branch; each
+    /// stands for a direction in which equilibrium is not stable. Of a tangent that is not symmetric
+    /// those of the symmetric part.
+    pub fn negative_pivots(&self) -> usize {
+        self.system.negative_pivots()
     }
 
     /// The tangent stiffness of the scene as it is, without what conditions hold, and the positions of
@@ -113,7 +122,14 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let still = vec![SVector::zeros(); transfers.placement.node_count()];
         self.tangents.resize(scene.bodies().len(), Vec::new());
         let (band, dt) = (self.settings.band, self.settings.step);
-        strain(scene, &transfers, &still, band, dt, &mut self.tangents)?;
+        strain(
+            scene,
+            &transfers,
+            &still,
+            band,
+            dt,
+            Some(&mut self.tangents),
+        )?;
         self.system.assemble(scene, &self.tangents);
         let positions = self.system.links.positions(&transfers);
         Ok((&self.system.stiffness.matrix, positions))
@@ -127,7 +143,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             if !std::mem::take(&mut self.recalled) {
                 refine(scene, &self.grid);
                 (self.force_scale, self.has_stepped) = (0.0, false);
-                self.next_step = self.settings.step;
+                self.pace.next = self.settings.step;
             }
             check_columns(scene)?;
             if !scene.contacts().is_empty() {
@@ -205,8 +221,15 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
         let mut damping = LEAST_DAMPING;
         for iteration in 0..=settings.max_iterations {
-            let totals = strain(scene, &transfers, displacement, settings.band, dt, tangents)
-                .map_err(Failed::Refused)?;
+            let totals = strain(
+                scene,
+                &transfers,
+                displacement,
+                settings.band,
+                dt,
+                Some(tangents),
+            )
+            .map_err(Failed::Refused)?;
             internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
             let unbalanced = unbalanced(&system.links, &system.freedoms, internal, &external);
@@ -242,17 +265,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             last = if placed { error } else { f64::INFINITY };
             before.clone_from(displacement);
-            system
-                .correct(
-                    scene,
-                    &transfers,
-                    tangents,
-                    unbalanced.force,
-                    &held,
-                    damping,
-                    displacement,
-                )
+            let force = unbalanced.force;
+            let jacobian = Jacobian::STATIC;
+            let correction = system
+                .correct(scene, &transfers, tangents, jacobian, force, &held, damping)
                 .map_err(|_| Failed::Singular)?;
+            system.links.add(&correction, 1.0, displacement);
             for (u, change) in displacement.iter_mut().zip(&mut held) {
                 *u += *change;
                 *change = SVector::zeros();
@@ -321,23 +339,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
         check_until(scene, until)?;
         self.prepare(scene)?;
         let left = until - scene.time();
-        // Shared out so that the last step before `until` is no sliver.
-        let mut dt = if left <= self.next_step * (1.0 + 1e-9) {
-            left
-        } else if left < 2.0 * self.next_step {
-            0.5 * left
-        } else {
-            self.next_step
-        };
+        let mut dt = self.pace.length(left);
         let (mut cuts, mut predict) = (0, self.has_stepped);
         loop {
             let failed = match self.attempt(scene, dt, predict) {
                 Ok(equilibrium) => {
-                    // A step shortened only by the end of the run does not shorten the next.
-                    self.next_step = match cuts {
-                        0 => (2.0 * self.next_step).min(self.settings.step),
-                        _ => dt,
-                    };
+                    self.pace.accepted(dt, cuts, self.settings.step);
                     return self.accept(scene, dt, equilibrium);
                 }
                 Err(failed) => failed,
@@ -368,12 +375,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
 
     fn memory(&self) -> Vec<f64> {
         let stepped = f64::from(u8::from(self.has_stepped));
-        vec![self.next_step, self.force_scale, stepped]
+        vec![self.pace.next, self.force_scale, stepped]
     }
 
     fn recall(&mut self, memory: &[f64]) {
         if let [next_step, force_scale, stepped] = *memory {
-            self.next_step = next_step;
+            self.pace.next = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;
             self.recalled = true;
