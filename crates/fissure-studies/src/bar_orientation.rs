@@ -38,7 +38,12 @@ impl Study for BarOrientation {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        bar::parameters(&[0.01])
+        let mut parameters = bar::parameters(&[0.01]);
+        // As in the document: turned, the bar would else break at a grip.
+        for parameter in parameters.iter_mut().filter(|p| p.name == "failing") {
+            parameter.default = vec![0.5.into()];
+        }
+        parameters
     }
 
     fn default_cases(&self, _settings: &Overrides, quick: bool) -> Vec<Overrides> {

@@ -97,6 +97,13 @@ fn material() -> Vec<Parameter> {
             "discretisation",
             &["discretisation", "particle"],
         ),
+        Parameter::number(
+            "failing",
+            "part of the length, in the middle, that can fail; the rest is elastic (fig. 5.5)",
+            "1",
+            1.0,
+            Permitted::numbers(0.2..=1.0),
+        ),
         Parameter::choice(
             "weak",
             "where the bar is weaker (sec. 5.4)",

@@ -23,6 +23,8 @@ pub(crate) struct Bar {
     pub strength: f64,
     pub toughness: f64,
     pub weakening: f64,
+    /// Part of the length, in the middle, that can fail.
+    failing: f64,
     law: String,
     weak: Weak,
     /// Way of the grid against the bar, cells.
@@ -48,6 +50,9 @@ enum Weak {
 /// Sub-cell offsets of the bar against the grid: eight, spread evenly, the first of them none.
 pub(crate) const OFFSETS: u64 = 8;
 
+/// Strength of what is elastic over that of the rest.
+const NEVER: f64 = 1e3;
+
 /// Name of the body.
 pub(crate) const BODY: &str = "bar";
 
@@ -68,6 +73,7 @@ impl Bar {
             },
             strength: parameters.number("strength")?,
             toughness: parameters.number("toughness")?,
+            failing: parameters.number("failing")?,
             law: parameters.choice("law")?.to_owned(),
             weak: match parameters.choice("weak")? {
                 "square" => Weak::Square(parameters.number("weak_side")?),
@@ -263,7 +269,19 @@ impl Bar {
         Ok(())
     }
 
+    /// Sets strengths: elastic beyond the part that can fail, weaker where the crack is to start.
     fn weaken(&self, scene: &mut Scene<2>) -> Result<(), SceneError> {
+        if self.failing < 1.0 {
+            let half = 0.5 * self.failing * self.length;
+            let beyond = |x: &Point| (self.along(x) - 0.5 * self.length).abs() > half;
+            // The toughness with the square: the greatest width of a crack stays.
+            let never = Scale {
+                strength: NEVER,
+                toughness: NEVER * NEVER,
+                ..Scale::default()
+            };
+            scene.set_scale(BODY, beyond, never)?;
+        }
         if self.weakening == 1.0 {
             return Ok(());
         }

@@ -133,7 +133,7 @@ impl Problem for AxisAlignedMms {
                 .set("h", SPACINGS[1])
                 .set("shape", "gimp")
                 .sweep("update", ["first", "last", "musl"])
-                .sweep("cfl", [0.4, 0.2, 0.1, 0.05, 0.025]),
+                .sweep("cfl", [0.4, 0.2, 0.1, 0.05]),
         ]
     }
 

@@ -22,7 +22,7 @@ use crate::problem::{Outcome, Problem, run_to};
 pub struct Brazilian;
 
 /// Spacings of the default run over the radius of 1 m.
-const SPACINGS: [f64; 4] = [0.2, 0.1, 0.05, 0.025];
+const SPACINGS: [f64; 5] = [0.2, 0.1, 0.05, 0.025, 0.0125];
 const RADIUS: f64 = 1.0;
 /// Pressure on the arcs over Young's modulus: small strains.
 const PRESSURE: f64 = 1e-6;
@@ -70,17 +70,15 @@ impl Problem for Brazilian {
     }
 
     fn cases(&self, quick: bool) -> Vec<Overrides> {
-        let spacings = if quick { &SPACINGS[..2] } else { &SPACINGS[..] };
-        let shapes: &[&str] = if quick {
-            &["linear"]
-        } else {
-            &["linear", "bspline2"]
-        };
-        vec![
+        let over_h = |count: usize, shape: &str| {
             Overrides::new()
-                .sweep("h", spacings.iter().copied())
-                .sweep("shape", shapes.iter().copied()),
-        ]
+                .sweep("h", SPACINGS[..count].iter().copied())
+                .set("shape", shape)
+        };
+        if quick {
+            return vec![over_h(2, "linear")];
+        }
+        vec![over_h(5, "linear"), over_h(3, "bspline2")]
     }
 
     fn leading_error(&self) -> &'static str {

@@ -20,7 +20,7 @@ use crate::problem::{Outcome, Problem, run_to};
 pub struct Cook;
 
 /// Spacings of the default run, m.
-const SPACINGS: [f64; 4] = [4.0, 2.0, 1.0, 0.5];
+const SPACINGS: [f64; 3] = [4.0, 2.0, 1.0];
 const LENGTH: f64 = 48.0;
 /// Heights on the left and of the right edge's ends, m.
 const LEFT: f64 = 44.0;
