@@ -29,7 +29,12 @@ pub(super) fn in_order<T: Send>(
     };
     let mut done = 0;
     for chunk in cases.chunks(threads) {
-        rows.progress(&format!("{} to {} of {}", done + 1, done + chunk.len(), cases.len()));
+        rows.progress(&format!(
+            "{} to {} of {}",
+            done + 1,
+            done + chunk.len(),
+            cases.len()
+        ));
         let results: Vec<Result<T, StudyError>> =
             pool.install(|| chunk.par_iter().map(alone).collect());
         for (case, result) in chunk.iter().zip(results) {

@@ -87,7 +87,11 @@ impl Study for StabilityEta {
 
     fn default_cases(&self, _settings: &Overrides, quick: bool) -> Vec<Overrides> {
         let all = Overrides::new();
-        vec![if quick { all.set("steps", 200_u64) } else { all }]
+        vec![if quick {
+            all.set("steps", 200_u64)
+        } else {
+            all
+        }]
     }
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
@@ -134,6 +138,8 @@ fn one<S: Softening>(case: &Parameters, curve: S) -> Result<(SimulationRow, XY),
     let twice = point.pulled(0.99, 2 * case.size("steps")?)?;
     let limit = point.limit();
     let mut row = SimulationRow::new("stability-eta", case);
+    row.h = 0.99 * limit;
+    row.solver = "point".to_owned();
     row.particles = 1;
     row.steps = case.count("steps")?;
     row.errors = Measures::new()
@@ -263,7 +269,10 @@ impl<S: Softening> Point<S> {
         let (mut below, mut above) = (1e-3 * scale, 4.0 * scale);
         for _ in 0..60 {
             let middle = 0.5 * (below + above);
-            match self.law.check_band(&Band::Uniform(middle), &Scale::default()) {
+            match self
+                .law
+                .check_band(&Band::Uniform(middle), &Scale::default())
+            {
                 Ok(()) => below = middle,
                 Err(MaterialError::Band { .. }) => above = middle,
                 Err(other) => return Err(StudyError::failed("asking the law")(other)),

@@ -56,7 +56,9 @@ impl Pictures {
         }
         match self.groups.iter_mut().find(|(known, _)| *known == label) {
             Some((_, curves)) => curves.push(finished.count.cracks.clone()),
-            None => self.groups.push((label, vec![finished.count.cracks.clone()])),
+            None => self
+                .groups
+                .push((label, vec![finished.count.cracks.clone()])),
         }
         Ok(())
     }

@@ -55,7 +55,10 @@ pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), Study
                 rows.note(&format!("the run above stopped early: {reason}"))?;
             }
             pictures.add(case, &finished)?;
-            match groups.iter_mut().find(|(other, _)| same_but_seed(other, case)) {
+            match groups
+                .iter_mut()
+                .find(|(other, _)| same_but_seed(other, case))
+            {
                 Some((_, curves)) => curves.push(finished.count.cracks),
                 None => groups.push((case.clone(), vec![finished.count.cracks])),
             }
@@ -72,7 +75,12 @@ pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), Study
 fn reference() -> Result<Vec<[f64; 2]>, StudyError> {
     let text = include_str!("../../../tests/data/nairn/coating.csv");
     let curve = Curve::read(text, "coating", "strain", "cracks")?;
-    Ok(curve.x.into_iter().zip(curve.y).map(|(x, y)| [x, y]).collect())
+    Ok(curve
+        .x
+        .into_iter()
+        .zip(curve.y)
+        .map(|(x, y)| [x, y])
+        .collect())
 }
 
 /// Whether a case is the specimen of the document, so that its counts can be compared.
@@ -130,7 +138,11 @@ fn mean_row(
     let onsets = curves.iter().filter_map(|curve| curve.first());
     let onset = onsets.map(|first| first[0]).sum::<f64>() / curves.len() as f64;
     row.values.insert("onset_strain", onset);
-    counts(&mut row.values, |strain| super::count::at(&cracks, strain), case)?;
+    counts(
+        &mut row.values,
+        |strain| super::count::at(&cracks, strain),
+        case,
+    )?;
     Ok(with_cracks(row, &cracks))
 }
 

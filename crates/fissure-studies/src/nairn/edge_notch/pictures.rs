@@ -55,7 +55,8 @@ impl Pictures {
             let size = 0.5 * case.number("h")?;
             snapshot.draw("σ_yy [Pa]", (0.0, strength), size, &path)?;
         }
-        self.runs.push((label, case.number("width")?, growth.clone()));
+        self.runs
+            .push((label, case.number("width")?, growth.clone()));
         Ok(())
     }
 

@@ -101,8 +101,7 @@ fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyError> {
     let growth_area = (length - plate.crack) * THICKNESS;
     row.errors = Measures::new();
     if plate.is_documents() {
-        row.errors
-            .insert("onset", (onset / DOCUMENT - 1.0).abs());
+        row.errors.insert("onset", (onset / DOCUMENT - 1.0).abs());
         if plate.strength == 30e6 && plate.toughness == 600.0 && plate.spacing == 1e-3 {
             row.errors
                 .insert("onset_reference", (onset / REFERENCE.0 - 1.0).abs());
@@ -114,7 +113,10 @@ fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyError> {
         .with("onset_us", 1e6 * onset)
         .with("speed_m_s", speed)
         .with("length_mm", 1e3 * length)
-        .with("failed_rows", failed as f64 / ((length - plate.crack) / (0.5 * plate.spacing)))
+        .with(
+            "failed_rows",
+            failed as f64 / ((length - plate.crack) / (0.5 * plate.spacing)),
+        )
         .with(
             "dissipated_per_area",
             scene.energy().dissipated / growth_area,
@@ -191,8 +193,12 @@ impl Plate {
         let margin = 6.0 * self.spacing;
         let reach = 0.5 * self.height + margin + self.speed * end;
         let reach = (reach / self.spacing).ceil() * self.spacing;
-        Grid::over([-margin, -reach], [self.width + margin, reach], self.spacing)
-            .map_err(StudyError::failed("making the grid"))
+        Grid::over(
+            [-margin, -reach],
+            [self.width + margin, reach],
+            self.spacing,
+        )
+        .map_err(StudyError::failed("making the grid"))
     }
 
     fn scene(&self, case: &Parameters) -> Result<Scene<2>, StudyError> {

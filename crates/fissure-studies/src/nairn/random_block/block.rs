@@ -209,9 +209,8 @@ fn factors(case: &Parameters, numerics: &Numerics, seed: u64) -> Result<Factors,
         .map_err(StudyError::failed("embedding the field"))?
         .draw(seed);
     // A particle next to the edge may lie outside by round-off.
-    let inside = move |x: &Vector2<f64>| {
-        Vector2::new(x[0].clamp(edge, max[0]), x[1].clamp(edge, max[1]))
-    };
+    let inside =
+        move |x: &Vector2<f64>| Vector2::new(x[0].clamp(edge, max[0]), x[1].clamp(edge, max[1]));
     Ok(Box::new(move |_, x| {
         let z = field.at(&inside(x));
         z.map_or(f64::NAN, |z| marginal.of(z))

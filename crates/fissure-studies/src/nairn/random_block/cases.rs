@@ -42,7 +42,13 @@ pub(super) fn parameters() -> Vec<Parameter> {
             0.1,
             Permitted::numbers(1e-4..=0.2),
         ),
-        Parameter::number("length", "of the block, along the load", "m", 0.02, positive()),
+        Parameter::number(
+            "length",
+            "of the block, along the load",
+            "m",
+            0.02,
+            positive(),
+        ),
         Parameter::number("width", "of the block", "m", 0.01, positive()),
         Parameter::number("young", "Young's modulus", "Pa", 1e9, positive()),
         Parameter::number(

@@ -30,9 +30,10 @@ pub(super) fn draw(folder: &Path, sets: &[Set]) -> Result<(), StudyError> {
 
 /// Mean and one standard deviation to either side.
 fn strengths(folder: &Path, sets: &[Set]) -> Result<(), StudyError> {
-    let mut plot = LinePlot::new("Strength of the block: mean, and one standard deviation about it")
-        .x_label("grid spacing [m]")
-        .y_label("strength [Pa]");
+    let mut plot =
+        LinePlot::new("Strength of the block: mean, and one standard deviation about it")
+            .x_label("grid spacing [m]")
+            .y_label("strength [Pa]");
     for field in FIELDS {
         let mut own: Vec<&Set> = sets.iter().filter(|set| set.field() == field).collect();
         own.sort_by(|a, b| a.spacing().total_cmp(&b.spacing()));
@@ -46,7 +47,12 @@ fn strengths(folder: &Path, sets: &[Set]) -> Result<(), StudyError> {
         }
         plot = plot
             .series(field, h.clone(), line(0.0), Style::LineAndMarkers)
-            .series(&format!("{field}, ± 1 s"), h.clone(), line(1.0), Style::Dashed)
+            .series(
+                &format!("{field}, ± 1 s"),
+                h.clone(),
+                line(1.0),
+                Style::Dashed,
+            )
             .series("", h, line(-1.0), Style::Dashed);
     }
     save(plot, &folder.join("strength.png"))

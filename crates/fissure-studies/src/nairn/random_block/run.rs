@@ -156,10 +156,16 @@ fn row(set: &Set) -> Result<SimulationRow, StudyError> {
         .with("deviation", moments.deviation)
         .with("deviation_low", low)
         .with("deviation_high", high)
-        .with("mean_over_nominal", moments.mean / (2.0 * set.case.number("shear_strength")?))
+        .with(
+            "mean_over_nominal",
+            moments.mean / (2.0 * set.case.number("shear_strength")?),
+        )
         .with("strain_at_peak", strain)
         .with("reached", 1.0 - largest(|sample| 1.0 - sample.reached))
-        .with("energy_imbalance", largest(|sample| sample.energy_imbalance))
+        .with(
+            "energy_imbalance",
+            largest(|sample| sample.energy_imbalance),
+        )
         .with("worst_balance", largest(|sample| sample.worst_balance))
         .with("transfer_loss", largest(|sample| sample.transfer_loss));
     Ok(row)
@@ -171,10 +177,11 @@ fn tests(sets: &[Set], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     for field in ["uncorrelated", "correlated"] {
         let mut own: Vec<&Set> = sets.iter().filter(|set| set.field() == field).collect();
         own.sort_by(|a, b| b.spacing().total_cmp(&a.spacing()));
-        if let [coarse, .., fine] = own.as_slice() {
-            if coarse.spacing() != fine.spacing() {
-                compare(&format!("{field}: coarsest against finest"), coarse, fine, rows)?;
-            }
+        if let [coarse, .., fine] = own.as_slice()
+            && coarse.spacing() != fine.spacing()
+        {
+            let name = format!("{field}: coarsest against finest");
+            compare(&name, coarse, fine, rows)?;
         }
     }
     let correlated = sets.iter().filter(|set| set.field() == "correlated");
@@ -186,7 +193,12 @@ fn tests(sets: &[Set], rows: &mut Rows<'_>) -> Result<(), StudyError> {
         };
         if let Some(other) = sets.iter().find(same) {
             let h = Value::Number(one.spacing());
-            compare(&format!("correlated against uncorrelated, h={h}"), one, other, rows)?;
+            compare(
+                &format!("correlated against uncorrelated, h={h}"),
+                one,
+                other,
+                rows,
+            )?;
         }
     }
     Ok(())

@@ -135,7 +135,10 @@ mod tests {
         let line = format!("h=1 seed=2\t{}", numbers(&sample));
         let (key, back) = read(&line).unwrap();
         assert_eq!(key, "h=1 seed=2");
-        assert_eq!((back.strength, back.strain), (sample.strength, sample.strain));
+        assert_eq!(
+            (back.strength, back.strain),
+            (sample.strength, sample.strain)
+        );
         assert_eq!((back.steps, back.curve), (17, sample.curve));
         assert!(read(&line[..line.len() - 19]).is_none());
     }

@@ -69,16 +69,15 @@ pub(super) fn welch(one: &Moments, other: &Moments) -> Test {
     let (a, b) = (part(one), part(other));
     let statistic = (one.mean - other.mean) / (a + b).sqrt();
     let freedom = (a + b).powi(2) / (a * a / one.freedom() + b * b / other.freedom());
-    let p = StudentsT::new(0.0, 1.0, freedom)
-        .map_or(f64::NAN, |t| 2.0 * t.cdf(-statistic.abs()));
+    let p = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| 2.0 * t.cdf(-statistic.abs()));
     Test { statistic, p }
 }
 
 /// Whether two variances may be equal.
 pub(super) fn fisher(one: &Moments, other: &Moments) -> Test {
     let statistic = (one.deviation / other.deviation).powi(2);
-    let below = FisherSnedecor::new(one.freedom(), other.freedom())
-        .map_or(f64::NAN, |f| f.cdf(statistic));
+    let below =
+        FisherSnedecor::new(one.freedom(), other.freedom()).map_or(f64::NAN, |f| f.cdf(statistic));
     Test {
         statistic,
         p: 2.0 * below.min(1.0 - below),
