@@ -239,9 +239,9 @@ fn finished_row<const D: usize>(
 ) -> SimulationRow {
     let mut row = row("uniaxial", case, scene, done);
     let sign = bar.speed.signum();
-    // Load over the section at rest.
+    // Load over the section at rest; in compression, where that one grows, times the shortening.
     let pairs = history.stress.iter().zip(&history.strain);
-    let nominal = pairs.map(|(stress, strain)| sign * stress / (1.0 + strain));
+    let nominal = pairs.map(|(stress, strain)| sign * stress / (1.0 + strain.max(0.0)));
     let (at, peak) = nominal.enumerate().fold(
         (0, 0.0),
         |best, next| if next.1 > best.1 { next } else { best },
