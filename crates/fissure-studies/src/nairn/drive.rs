@@ -65,7 +65,8 @@ pub(super) fn row<const D: usize>(
 }
 
 /// Dissipation, and the errors of the ledger over its largest term: of the laws' integration
-/// (`energy_imbalance`), of the grid's steps (`worst_balance`), of the transfer (`transfer_loss`).
+/// (`energy_imbalance`), of the grid's steps (`worst_balance`), of the transfer (`transfer_loss`),
+/// and what of the external work is nowhere (`lost`, the sum of the first and the last).
 pub(super) fn energies<const D: usize>(measures: Measures, scene: &Scene<D>) -> Measures {
     let balance = EnergyBalance::of(scene.energy());
     measures
@@ -73,4 +74,8 @@ pub(super) fn energies<const D: usize>(measures: Measures, scene: &Scene<D>) -> 
         .with("energy_imbalance", balance.energy_imbalance())
         .with("worst_balance", balance.worst_balance)
         .with("transfer_loss", balance.relative_transfer_loss())
+        .with(
+            "lost",
+            balance.energy_imbalance() + balance.relative_transfer_loss(),
+        )
 }

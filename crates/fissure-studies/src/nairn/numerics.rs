@@ -56,7 +56,7 @@ impl Numerics {
             Parameter::choice(
                 "stress",
                 "when it is updated in a step",
-                "musl",
+                "first",
                 &["first", "last", "musl"],
             ),
             Parameter::number(
@@ -111,18 +111,37 @@ impl Numerics {
         })
     }
 
-    /// An explicit solver on this grid.
-    pub(super) fn solver<const D: usize>(
-        &self,
-        grid: Grid<D>,
-    ) -> Result<Box<dyn Solver<D>>, StudyError> {
+    /// An explicit solver on this grid, in the plane.
+    pub(super) fn solver(&self, grid: Grid<2>) -> Result<Box<dyn Solver<2>>, StudyError> {
         let settings = self.settings;
-        let made: Result<Box<dyn Solver<D>>, _> = match self.shape {
+        let made: Result<Box<dyn Solver<2>>, _> = match self.shape {
             Functions::Linear => boxed(Explicit::new(grid, shape::Linear, settings)),
             Functions::Gimp => boxed(Explicit::new(grid, shape::Gimp, settings)),
             Functions::Cpdi => boxed(Explicit::new(grid, shape::Cpdi, settings)),
             Functions::Bspline2 => boxed(Explicit::new(grid, shape::Bspline2, settings)),
             Functions::Bspline3 => boxed(Explicit::new(grid, shape::Bspline3, settings)),
+        };
+        made.map_err(StudyError::failed("setting up the solver"))
+    }
+
+    /// The same in space, for the shapes that the studies use there: each is code of its own to
+    /// compile.
+    pub(super) fn solver_in_space(
+        &self,
+        case: &Parameters,
+        grid: Grid<3>,
+    ) -> Result<Box<dyn Solver<3>>, StudyError> {
+        let settings = self.settings;
+        let made: Result<Box<dyn Solver<3>>, _> = match self.shape {
+            Functions::Gimp => boxed(Explicit::new(grid, shape::Gimp, settings)),
+            Functions::Bspline2 => boxed(Explicit::new(grid, shape::Bspline2, settings)),
+            _ => {
+                return Err(StudyError::combination(
+                    case,
+                    &["shape"],
+                    "in space the shapes are gimp and bspline2",
+                ));
+            }
         };
         made.map_err(StudyError::failed("setting up the solver"))
     }

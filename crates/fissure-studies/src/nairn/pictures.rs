@@ -13,7 +13,7 @@ pub(super) const ROWS: usize = 400;
 /// About `count` entries of a column, the first and the last among them.
 pub(super) fn thinned(column: &[f64], count: usize) -> Vec<f64> {
     let stride = column.len().div_ceil(count).max(1);
-    let whole = column.len().saturating_sub(1) % stride == 0;
+    let whole = column.len().saturating_sub(1).is_multiple_of(stride);
     let thin = column.iter().step_by(stride);
     thin.chain(column.last().filter(|_| !whole))
         .copied()

@@ -138,6 +138,8 @@ fn one<S: Softening>(case: &Parameters, curve: S) -> Result<(SimulationRow, XY),
     let twice = point.pulled(0.99, 2 * case.size("steps")?)?;
     let limit = point.limit();
     let mut row = SimulationRow::new("stability-eta", case);
+    row.h = 0.99 * limit;
+    row.solver = "point".to_owned();
     row.particles = 1;
     row.steps = case.count("steps")?;
     row.errors = Measures::new()

@@ -177,15 +177,11 @@ fn tests(sets: &[Set], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     for field in ["uncorrelated", "correlated"] {
         let mut own: Vec<&Set> = sets.iter().filter(|set| set.field() == field).collect();
         own.sort_by(|a, b| b.spacing().total_cmp(&a.spacing()));
-        if let [coarse, .., fine] = own.as_slice() {
-            if coarse.spacing() != fine.spacing() {
-                compare(
-                    &format!("{field}: coarsest against finest"),
-                    coarse,
-                    fine,
-                    rows,
-                )?;
-            }
+        if let [coarse, .., fine] = own.as_slice()
+            && coarse.spacing() != fine.spacing()
+        {
+            let name = format!("{field}: coarsest against finest");
+            compare(&name, coarse, fine, rows)?;
         }
     }
     let correlated = sets.iter().filter(|set| set.field() == "correlated");

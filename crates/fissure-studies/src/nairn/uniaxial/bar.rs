@@ -161,6 +161,7 @@ impl Bar {
     pub(super) fn in_space(
         &self,
         numerics: &Numerics,
+        case: &Parameters,
     ) -> Result<(Scene<3>, Box<dyn Solver<3>>), StudyError> {
         let mut scene = Scene::solid();
         let spacing = numerics.spacing;
@@ -171,12 +172,12 @@ impl Bar {
             };
             self.build(&mut scene, spacing, Box::new(part))?;
             let grid = self.grid(spacing, [0.0; 3], [0.0, self.width, self.width])?;
-            return Ok((scene, numerics.solver(grid)?));
+            return Ok((scene, numerics.solver_in_space(case, grid)?));
         }
         let part = |from: f64, to: f64| Block::new([from, 0.0, 0.0], [to, self.width, self.depth]);
         self.build(&mut scene, spacing, Box::new(part))?;
         let grid = self.grid(spacing, [0.0; 3], [0.0, self.width, self.depth])?;
-        Ok((scene, numerics.solver(grid)?))
+        Ok((scene, numerics.solver_in_space(case, grid)?))
     }
 
     /// Room for the bar, its grips and the way of the right one.

@@ -58,6 +58,8 @@ impl Pictures {
                 ("strain", &strain),
                 ("mean_stress [Pa]", &stress),
                 ("dissipated [J]", &thin(&history.dissipated)),
+                ("imbalance [J]", &thin(&history.imbalance)),
+                ("transfer_loss [J]", &thin(&history.transfer_loss)),
             ],
         )?;
         let label = match kind {
@@ -110,7 +112,7 @@ impl Pictures {
     ) -> Result<(), StudyError> {
         let mut plot = LinePlot::new("Mean stress of the bar against nominal strain")
             .x_label("nominal strain [1]")
-            .y_label("mean stress, positive along the load [Pa]");
+            .y_label("mean Kirchhoff stress, positive along the load [Pa]");
         let mut drawn: Vec<&str> = Vec::new();
         for (kind, name, strain, stress) in &self.curves {
             if !chosen(kind) || (first_of_kind && drawn.contains(&kind.as_str())) {

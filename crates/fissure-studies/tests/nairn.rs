@@ -1,0 +1,155 @@
+//! The quick forms of the studies of Nairn 2017, sec. 3, through the command line.
+#![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
+
+use fissure_studies::studies;
+use fissure_study::execute;
+use serde_json::Value;
+
+/// Result rows of a command, as JSON.
+fn rows(study: &str, arguments: &[&str]) -> Vec<Value> {
+    let (mut output, mut messages) = (Vec::new(), Vec::new());
+    let command = ["fissure-studies", study, "--json"];
+    let arguments = command.iter().chain(arguments).copied();
+    let code = execute(&studies(), arguments, &mut output, &mut messages);
+    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
+    let text = String::from_utf8(output).unwrap();
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+/// A number of a row; a missing or non-finite one is NaN, which no bound holds for.
+fn number(row: &Value, group: &str, name: &str) -> f64 {
+    row[group][name].as_f64().unwrap_or(f64::NAN)
+}
+
+fn assert_at_most(row: &Value, group: &str, bounds: &[(&str, f64)]) {
+    for (name, bound) in bounds {
+        let found = number(row, group, name).abs();
+        assert!(found <= *bound, "{name} = {found} is over {bound} in {row}");
+    }
+}
+
+#[test]
+fn bars_start_to_fail_at_their_strength() {
+    let rows = rows("uniaxial", &["--quick"]);
+    let cases: Vec<&str> = rows
+        .iter()
+        .map(|row| row["parameters"]["case"].as_str().unwrap())
+        .collect();
+    assert_eq!(cases, ["tension", "necking", "compression", "circle"]);
+    for row in &rows {
+        let bounds: &[(&str, f64)] = match row["parameters"]["case"].as_str().unwrap() {
+            // The particle that fails first follows its law to the end.
+            "tension" => &[
+                ("peak", 0.02),
+                ("law", 0.05),
+                ("reference_peak", 0.03),
+                ("reference_stress", 0.015),
+            ],
+            // Loaded faster than in the full form.
+            _ => &[("peak", 0.1)],
+        };
+        assert_at_most(row, "errors", bounds);
+        assert_eq!(number(row, "values", "reached"), 1.0, "{row}");
+        assert_at_most(row, "values", &[("worst_balance", 1e-12)]);
+    }
+    let tension = &rows[0];
+    assert_at_most(tension, "values", &[("imbalance_softening", 0.03)]);
+    // One column of particles, 12 of them, has failed all across.
+    assert_eq!(number(tension, "values", "failed_particles"), 12.0);
+}
+
+#[test]
+fn a_notch_grows_in_two_rows() {
+    let rows = rows("edge-notch", &["--quick"]);
+    assert_eq!(rows.len(), 1);
+    let row = &rows[0];
+    let (onset, speed) = (
+        number(row, "values", "onset_us"),
+        number(row, "values", "speed_m_s"),
+    );
+    assert!(onset > 20.0 && onset < 40.0, "{row}");
+    // Below the speed of Rayleigh's waves, 0.93 of the shear waves'.
+    assert!(speed > 100.0 && speed < 901.0, "{row}");
+    // Both rows of particles of a cell fail, and each takes the toughness [Nairn 2017, sec. 3.2].
+    let failed = number(row, "values", "failed_rows");
+    assert!((failed - 2.0).abs() <= 0.15, "{row}");
+    let ratio = number(row, "values", "dissipated_per_area") / 600.0;
+    assert!((2.0..2.6).contains(&ratio), "{row}");
+    assert_at_most(
+        row,
+        "values",
+        &[("worst_balance", 1e-12), ("energy_imbalance", 0.15)],
+    );
+}
+
+#[test]
+fn a_coating_cracks_several_times() {
+    let rows = rows("coating", &["--quick"]);
+    assert_eq!(rows.len(), 3, "two runs and their mean");
+    for row in &rows {
+        let onset = number(row, "values", "onset_strain");
+        assert!(onset > 1e-3 && onset < 0.01, "{row}");
+        let cracks = row["values"]["cracks"].as_array().unwrap();
+        assert!(cracks.last().unwrap()[1].as_f64().unwrap() >= 3.0, "{row}");
+        let strains = cracks.iter().map(|step| step[0].as_f64().unwrap());
+        assert!(strains.is_sorted(), "{row}");
+    }
+    assert_at_most(&rows[0], "values", &[("energy_imbalance", 0.1)]);
+}
+
+#[test]
+fn correlation_lowers_the_strength_of_a_block() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let first = rows("random-block", &["--quick", "--out", out]);
+    let (sets, tests) = first.split_at(4);
+    assert_eq!(tests.len(), 4);
+    for set in sets {
+        let mean = number(set, "values", "mean_over_nominal");
+        assert!(mean > 0.8 && mean < 1.0, "{set}");
+        assert_eq!(number(set, "values", "reached"), 1.0);
+    }
+    for test in tests.iter().filter(|test| {
+        let name = test["test"].as_str().unwrap();
+        name.starts_with("correlated against")
+    }) {
+        assert!(test["mean_difference"].as_f64().unwrap() < 0.0, "{test}");
+        assert!(test["variance_ratio"].as_f64().unwrap() > 1.0, "{test}");
+    }
+    // What is on file is not run again, and gives the same rows.
+    let samples = std::fs::read_to_string(folder.path().join("samples.txt")).unwrap();
+    let second = rows("random-block", &["--quick", "--out", out]);
+    let again = std::fs::read_to_string(folder.path().join("samples.txt")).unwrap();
+    assert_eq!(samples, again);
+    for (one, other) in first.iter().zip(&second) {
+        assert_eq!(one["values"]["mean"], other["values"]["mean"]);
+        assert_eq!(one["variances_F"], other["variances_F"]);
+    }
+}
+
+#[test]
+fn the_limit_of_every_softening_law_is_that_of_equation_36() {
+    let rows = rows("stability-eta", &["--quick"]);
+    assert_eq!(rows.len(), 14);
+    for row in &rows {
+        assert_at_most(
+            row,
+            "errors",
+            &[
+                ("limit", 1.1e-3),
+                ("accepted", 1e-12),
+                ("dissipated", 1e-12),
+            ],
+        );
+        // Below the limit the traction is continuous: half the step, a smaller jump.
+        let jump = number(row, "values", "largest_jump");
+        assert!(
+            number(row, "values", "jump_halved_steps") < 0.75 * jump,
+            "{row}"
+        );
+        // Above it, the strain would have to go back.
+        assert!(number(row, "values", "snap_back_above") > 0.0, "{row}");
+    }
+}
