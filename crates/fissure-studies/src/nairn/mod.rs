@@ -1,7 +1,7 @@
 //! The examples of Nairn, Hammerquist & Aimene 2017, sec. 3, that need only the damage laws.
 //!
-//! What the studies share is here: the numerics they choose from ([`numerics`]), the loop that runs
-//! a scene and what its ledger says ([`drive`]), failed particles ([`failed`]) and pictures.
+//! What the studies share is here: the numerics they choose from (`numerics`), the loop that runs
+//! a scene and what its ledger says (`drive`), failed particles (`failed`) and pictures.
 
 pub mod coating;
 pub mod edge_notch;
