@@ -44,18 +44,20 @@ fn bars_start_to_fail_at_their_strength() {
             "tension" => &[
                 ("peak", 0.02),
                 ("law", 0.05),
-                ("reference_peak", 0.03),
+                // Its Kirchhoff stress is that of the law, ours 1 + ε times as much.
+                ("reference_peak", 0.04),
                 ("reference_stress", 0.015),
             ],
-            // Loaded faster than in the full form.
-            _ => &[("peak", 0.1)],
+            // Short, and loaded fast: its strain is not even.
+            "circle" => &[("peak", 0.15)],
+            _ => &[("peak", 0.05)],
         };
         assert_at_most(row, "errors", bounds);
         assert_eq!(number(row, "values", "reached"), 1.0, "{row}");
         assert_at_most(row, "values", &[("worst_balance", 1e-12)]);
     }
     let tension = &rows[0];
-    assert_at_most(tension, "values", &[("imbalance_softening", 0.03)]);
+    assert_at_most(tension, "values", &[("imbalance_softening", 0.05)]);
     // One column of particles, 12 of them, has failed all across.
     assert_eq!(number(tension, "values", "failed_particles"), 12.0);
 }
