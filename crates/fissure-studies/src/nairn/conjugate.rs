@@ -64,8 +64,9 @@ pub(super) struct Conjugate<N: Softening, T: Softening>(pub AnisotropicDamage<N,
 impl<N: Softening, T: Softening> Material for Conjugate<N, T> {
     type State = AnisotropicDamageState;
     const NAMES: &'static [&'static str] = AnisotropicDamage::<N, T>::NAMES;
-    // The law has none; this is round-off, which the factors of stretch enlarge.
-    const STEP_ERROR: f64 = 1e-8;
+    // The law has none for a path that is straight in U − 1; that of F is not at strains of a quarter, which are five
+    // natural ones of so weak a law (measured 0.22).
+    const STEP_ERROR: f64 = 0.25;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.0.check()
