@@ -158,3 +158,23 @@ fn waves_that_meet_open_a_crack_as_fast_as_they_should() {
         &[("dissipated", 0.5)],
     );
 }
+
+#[test]
+fn two_discs_touch_when_their_edges_do() {
+    holds(
+        "two-discs",
+        &["h=0.05", "contact=coulomb"],
+        &[("touch", 0.05), ("momentum", 1e-13), ("energy_lost", 0.06)],
+        &[],
+    );
+}
+
+#[test]
+fn a_centre_crack_has_its_intensity() {
+    holds(
+        "stress-intensity",
+        &["case=centre", "angle=45", "part=0.5", "h=0.004"],
+        &[("k1", 0.02), ("k2", 1e-6), ("j", 0.04)],
+        &[],
+    );
+}
