@@ -61,4 +61,4 @@ pub use separable::Separable;
 pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};
 pub use tiles::{ABSENT, Tiles};
-pub use window::{TILE, WINDOW, WINDOW_START, tile_of, window_map};
+pub use window::{TILE, WINDOW, WINDOW_START, tile_of, window_map, window_node};

@@ -50,6 +50,14 @@ const fn table<const N: usize>(dimensions: usize) -> [(u8, u8); N] {
     map
 }
 
+/// Grid index of a window entry's node; `entry` is below 8^D.
+#[inline]
+pub fn window_node<const D: usize>(tile: [i32; D], entry: usize) -> [i32; D] {
+    std::array::from_fn(|axis| {
+        tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
+    })
+}
+
 /// Window index, along one axis, of the first of `count` nodes starting at `node`; None if they do not all fit.
 #[inline(always)]
 pub(crate) fn window_start(tile: i32, node: i32, count: i32) -> Option<usize> {

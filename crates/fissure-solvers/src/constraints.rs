@@ -1,6 +1,6 @@
 //! Prescribed velocities, from particles to the nodes they reach.
 
-use fissure_grid::{Grid, Shape, Stencil, TILE, WINDOW_START, tile_of};
+use fissure_grid::{Grid, Shape, Stencil, tile_of, window_node};
 use fissure_particles::ParticleId;
 use fissure_scene::{Body, Condition, ConditionKind, Hold, Scene, Selection, SolveError};
 use nalgebra::{SMatrix, SVector};
@@ -166,9 +166,7 @@ impl<const D: usize> Constraints<D> {
             let stencil = shape.stencil(grid, tile, x, domain)?;
             stencil.visit_values(|entry, weight| {
                 if weight > REACHED {
-                    let node: [i32; D] = std::array::from_fn(|axis| {
-                        tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
-                    });
+                    let node = window_node(tile, entry);
                     // A node whose tile is not held has no mass either.
                     placement.each_field(node, |node| self.reached.push((node, index)));
                 }

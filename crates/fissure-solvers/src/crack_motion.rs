@@ -1,6 +1,6 @@
 //! Cracks are carried by the nodes: both faces of every vertex move with the field of their side.
 
-use fissure_grid::{Grid, Shape, Stencil, TILE, WINDOW_START, shape::Linear, tile_of};
+use fissure_grid::{Grid, Shape, Stencil, shape::Linear, tile_of, window_node};
 use fissure_scene::{CrackLine, End, EndState, Scene, SolveError, VertexMotion};
 use nalgebra::{SMatrix, SVector, Vector2};
 
@@ -75,8 +75,7 @@ impl<F: Fn(usize) -> Option<SVector<f64, D>>, const D: usize> Faces<'_, F, D> {
         let line = crack.line();
         let last = line.points().len() - 1;
         let moved = line.points().iter().enumerate().map(|(vertex, x)| {
-            let normal = line.foot(x).normal;
-            let aside = normal * (BESIDE * self.grid.spacing());
+            let aside = line.normal_at(vertex) * (BESIDE * self.grid.spacing());
             let [plus, minus] = [x + aside, x - aside].map(|face| self.face(&face));
             let both = [plus.or(minus), minus.or(plus)];
             let [plus, minus] = both.map(|way| way.unwrap_or_else(Vector2::zeros));
@@ -103,9 +102,7 @@ impl<F: Fn(usize) -> Option<SVector<f64, D>>, const D: usize> Faces<'_, F, D> {
         let stencil = Linear.stencil(self.grid, tile, &place, &SMatrix::zeros())?;
         let (mut sum, mut weights) = (Vector2::zeros(), 0.0);
         stencil.visit_values(|entry, weight| {
-            let index: [i32; D] = std::array::from_fn(|axis| {
-                tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
-            });
+            let index = window_node(tile, entry);
             let node = plane(&self.grid.node(index));
             let cracks = between(self.cracks, 0..self.cracks.len(), x, &node);
             if let Some(way) = self.way_at(index, cracks) {

@@ -6,7 +6,7 @@
 //! Nodes that no way to crosses, ahead of a tip for example, keep one field, so that a tip need not
 //! lie on a node. Particles that agree at all nodes of their tile's window make a group.
 
-use fissure_grid::{Grid, TILE, WINDOW, WINDOW_START};
+use fissure_grid::{Grid, WINDOW, window_node};
 use fissure_scene::{CrackLine, Scene, Side, SolveError};
 use nalgebra::{SVector, Vector2};
 
@@ -47,10 +47,15 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// The groups among these, as `(field of the body, pattern)`.
-    pub(crate) fn of(mut all: Vec<(u32, Pattern)>) -> Self {
+    pub(crate) fn of(mut all: Vec<(u32, &Pattern)>) -> Self {
         all.sort_unstable();
         all.dedup();
-        Self { groups: all }
+        let owned = all
+            .into_iter()
+            .map(|(body, pattern)| (body, pattern.clone()));
+        Self {
+            groups: owned.collect(),
+        }
     }
 
     /// Number of a group.
@@ -142,10 +147,7 @@ impl<'a, const D: usize> Between<'a, D> {
     }
 
     fn node(&self, tile: [i32; D], entry: usize) -> Vector2<f64> {
-        let index = std::array::from_fn(|axis| {
-            tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
-        });
-        plane(&self.grid.node(index))
+        plane(&self.grid.node(window_node(tile, entry)))
     }
 }
 

@@ -7,6 +7,7 @@
 //! between; `transfers` sums particles to nodes without it.
 
 mod band;
+mod checks;
 mod constraints;
 mod crack_motion;
 #[cfg(feature = "implicit")]

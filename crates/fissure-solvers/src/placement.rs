@@ -7,6 +7,7 @@ use nalgebra::SVector;
 #[cfg(feature = "implicit")]
 use rayon::prelude::*;
 
+use crate::checks::outside;
 use crate::groups::{Between, Groups, Pattern};
 use crate::splits::{SplitWindow, Splits};
 use crate::window::WindowNodes;
@@ -52,7 +53,7 @@ pub struct Placement<const D: usize> {
     keys: Vec<u64>,
     order: Vec<u32>,
     homes: Vec<[i32; D]>,
-    /// Of each particle the cracks between it and its window's nodes; empty without cracks.
+    /// Of each particle the cracks between it and its window's nodes, while groups are formed.
     patterns: Vec<Pattern>,
     groups: Groups,
     /// Tile and group of every run.
@@ -162,6 +163,8 @@ impl<const D: usize> Placement<D> {
         self.batches
             .extend(batches.into_iter().map(|(_, batch)| batch));
         self.occupied = occupied;
+        // The groups hold each once.
+        self.patterns = Vec::new();
         self.split();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
@@ -170,7 +173,7 @@ impl<const D: usize> Placement<D> {
     }
 
     fn form_groups(&mut self, scene: &Scene<D>, fields: &[u32]) {
-        let mut all: Vec<(u32, Pattern)> = fields.iter().map(|&field| (field, None)).collect();
+        let mut all: Vec<(u32, &Pattern)> = fields.iter().map(|&field| (field, &None)).collect();
         if !self.patterns.is_empty() {
             let bodies = scene.bodies().iter().zip(fields);
             let of_particles = bodies
@@ -178,7 +181,7 @@ impl<const D: usize> Placement<D> {
             let split = of_particles
                 .zip(&self.patterns)
                 .filter(|(_, pattern)| pattern.is_some());
-            all.extend(split.map(|(field, pattern)| (field, pattern.clone())));
+            all.extend(split);
         }
         self.groups = Groups::of(all);
     }
@@ -365,65 +368,6 @@ impl<const D: usize> Placement<D> {
                 .push(chosen.map(|(index, _)| index as u32).collect());
         }
     }
-}
-
-/// The error of a step that a particle outside the grid stops.
-pub(crate) fn outside<const D: usize>(scene: &Scene<D>, body: usize, index: usize) -> SolveError {
-    let body = &scene.bodies()[body];
-    SolveError::Outside {
-        body: body.name().to_owned(),
-        id: body.particles().id[index],
-        position: body.motion().position[index].iter().copied().collect(),
-        step: scene.step() + 1,
-        time: scene.time(),
-    }
-}
-
-/// Refuses to step to a time that is not after the present.
-pub(crate) fn check_until<const D: usize>(scene: &Scene<D>, until: f64) -> Result<(), SolveError> {
-    if until > scene.time() {
-        return Ok(());
-    }
-    Err(SolveError::Setting {
-        setting: "until",
-        value: until,
-        permitted: "after the scene's time",
-    })
-}
-
-/// Refuses numbers that are not finite, once, before the first step.
-pub(crate) fn check_columns<const D: usize>(scene: &Scene<D>) -> Result<(), SolveError> {
-    if scene.particle_count() == 0 {
-        return Err(SolveError::Empty);
-    }
-    for body in scene.bodies() {
-        let particles = body.particles();
-        let motion = &particles.motion;
-        for (i, &id) in particles.id.iter().enumerate() {
-            let finite = |v: &SVector<f64, D>| v.iter().all(|c| c.is_finite());
-            let field = if !finite(&motion.position[i]) {
-                "position"
-            } else if !finite(&motion.velocity[i]) {
-                "velocity"
-            } else if !motion.deformation_gradient[i].iter().all(|c| c.is_finite()) {
-                "deformation_gradient"
-            } else if !motion.stress[i].is_finite() {
-                "stress"
-            } else if !particles.mass[i].is_finite() {
-                "mass"
-            } else if !particles.volume[i].is_finite() {
-                "volume"
-            } else {
-                continue;
-            };
-            return Err(SolveError::NotFinite {
-                body: body.name().to_owned(),
-                id,
-                field,
-            });
-        }
-    }
-    Ok(())
 }
 
 /// Colour of a tile: whether each of its coordinates is odd.

@@ -11,6 +11,7 @@
 //! predicate, crate `robust`), and a point exactly on a line counts as on its plus side: answers
 //! are consistent at vertices and for collinear points, and the same on every machine.
 
+mod building;
 mod error;
 mod growth;
 mod polyline;

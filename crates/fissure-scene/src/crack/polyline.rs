@@ -186,7 +186,7 @@ impl Polyline {
             _ => 0,
         };
         let normal = if vertex > 0 && vertex < self.segments() {
-            self.vertex_normal(vertex).normalize()
+            self.normal_at(vertex)
         } else {
             self.normal(segment)
         };
@@ -232,6 +232,11 @@ impl Polyline {
             return area > 0.0;
         }
         (b - a).perp(&self.vertex_normal(i)) <= 0.0
+    }
+
+    /// Unit normal at vertex `i`, the bisector of those of its segments; `i` as for a slice.
+    pub fn normal_at(&self, i: usize) -> Vector2<f64> {
+        self.vertex_normal(i).normalize()
     }
 
     /// Sum of the normals of the segments that meet in vertex `i`: along their bisector.

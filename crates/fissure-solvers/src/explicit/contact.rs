@@ -20,9 +20,9 @@ use rayon::prelude::*;
 
 use self::plane::normal_between;
 use self::surface::Surface;
+use crate::checks::outside;
 use crate::groups::{Label, plane};
 use crate::nodes::{Field, MASSIVE, NodeSums, element, vector};
-use crate::placement::outside;
 use crate::transfers::Transfers;
 
 /// Rounds over the pairs of a node where more than two fields meet.
@@ -104,14 +104,15 @@ impl<const D: usize> Meetings<D> {
         }
         let off_grid = |(body, index)| outside(scene, body, index);
         let surface = Surface { transfers, scene };
-        let bounds = surface.bounds().map_err(off_grid)?;
-        let (mut wanted, mut copies) = (vec![false; bounds.len()], Vec::new());
+        // Faces of cracks know their normals and gaps: particles are asked only where bodies may touch.
+        let bounds = match scene.contacts() {
+            [] => Vec::new(),
+            _ => surface.bounds().map_err(off_grid)?,
+        };
+        let (mut wanted, mut copies) = (vec![false; splits.copies.len()], Vec::new());
         for here in splits.nodes() {
             self.starts.push(self.meetings.len() as u32);
             for (a, b) in pairs(here) {
-                if bounds[a].is_empty() || bounds[b].is_empty() {
-                    continue;
-                }
                 let pair = [splits.copies[a], splits.copies[b]];
                 let law = law(scene, pair.map(|copy| copy.label));
                 let mut meeting = Meeting {
@@ -129,6 +130,7 @@ impl<const D: usize> Meetings<D> {
                         (meeting.normal, meeting.gap) = faces(&scene.cracks()[crack], in_order, &x);
                     }
                     Some(Between::Bodies(..)) => {
+                        // The box of a field without particles is near none.
                         if !bounds[a].is_near(&bounds[b], margin) {
                             continue;
                         }
@@ -140,11 +142,13 @@ impl<const D: usize> Meetings<D> {
             }
         }
         self.starts.push(self.meetings.len() as u32);
+        if !wanted.contains(&true) {
+            return Ok(());
+        }
         let clouds = surface.clouds(&wanted).map_err(off_grid)?;
         self.meetings
             .par_iter_mut()
             .zip(copies)
-            .filter(|(_, (a, b))| wanted[*a] && wanted[*b])
             .filter(|(meeting, _)| meeting.is_of_bodies())
             .for_each(|(meeting, (a, b))| {
                 let (a, b) = (&clouds[a], &clouds[b]);

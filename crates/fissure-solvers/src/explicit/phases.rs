@@ -11,10 +11,10 @@ use super::filter::{Held, filter};
 use super::grid_update::{NodeForces, Nodes, each_node};
 use super::kernels::{Giving, StepKernel};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
+use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::loads::Loads;
 use crate::nodes::{Field, NodeSums, element, vector};
-use crate::placement::outside;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
 /// Share of the mean particle mass below which a node holds round-off and feels no force.

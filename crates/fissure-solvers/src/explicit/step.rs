@@ -11,10 +11,11 @@ use super::grid_update::Nodes;
 use super::kernels::Giving;
 use super::phases::{Pass, Phases, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
+use crate::checks::{check_columns, check_until};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carry, refine};
 use crate::nodes::{MASSIVE, NodeSums, vector};
-use crate::placement::{Placement, check_columns, check_until};
+use crate::placement::Placement;
 use crate::transfers::Transfers;
 
 /// Explicit material-point solver on a grid with a shape function.

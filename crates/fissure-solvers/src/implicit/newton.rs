@@ -13,6 +13,7 @@ use nalgebra::SVector;
 use super::scheme::{End, Scheme, Start};
 use super::settings::ImplicitSettings;
 use super::statistics::{NewtonStop, StepStatistics};
+use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::equilibrium::balance::{At, internal_forces, strain};
 use crate::equilibrium::choice::{Iterative, LinearSolver, Preconditioning, Product};
@@ -20,7 +21,6 @@ use crate::equilibrium::stiffness::times;
 use crate::equilibrium::system::{Jacobian, Multiply, NoCorrection, System};
 use crate::linear::{Identity, Preconditioner, norm};
 use crate::nodes::NodeSums;
-use crate::placement::outside;
 use crate::transfers::Transfers;
 
 /// Most halvings of a correction.

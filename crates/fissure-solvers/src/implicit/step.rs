@@ -10,13 +10,14 @@ use super::particles::Carried;
 use super::scheme::{Scheme, Start};
 use super::settings::ImplicitSettings;
 use super::statistics::{NewtonStop, StepStatistics};
+use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carry, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::system::System;
 use crate::nodes::NodeSums;
-use crate::placement::{Placement, check_columns, check_until, outside};
+use crate::placement::Placement;
 use crate::transfers::Transfers;
 
 /// Implicit material-point solver on a grid with a shape function.

@@ -6,6 +6,7 @@ use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy
 use nalgebra::SVector;
 
 use super::settings::QuasiStaticSettings;
+use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carry, refine};
 use crate::equilibrium::balance::{
@@ -15,7 +16,7 @@ use crate::equilibrium::pace::Pace;
 use crate::equilibrium::system::{Jacobian, System};
 use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
-use crate::placement::{Placement, check_columns, check_until, outside};
+use crate::placement::Placement;
 use crate::transfers::Transfers;
 
 /// Quasi-static material-point solver on a grid with a shape function.

@@ -62,10 +62,6 @@ impl<const D: usize> Bounds<D> {
         let gap = (other.low - self.high).sup(&(self.low - other.high));
         gap.iter().all(|&gap| gap < margin)
     }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.high[0] < self.low[0]
-    }
 }
 
 impl<S: Shape<D>, const D: usize> Surface<'_, S, D> {
