@@ -24,32 +24,47 @@ pub(crate) fn refine<const D: usize>(scene: &mut Scene<D>, grid: &Grid<D>) {
     }
 }
 
-/// Moves all vertices by nodal displacements: `way(node)` is `None` at a node that nothing moves. Faces are
-/// interpolated linearly from the nodes of their side; a face without nodes moves with the other.
+/// The cracks of a scene as a step leaves them.
+pub(crate) struct CarriedCracks {
+    cracks: Vec<CrackLine>,
+    /// The longest way of a vertex, m.
+    farthest: f64,
+}
+
+impl CarriedCracks {
+    /// Makes them the present ones.
+    pub(crate) fn accept<const D: usize>(self, scene: &mut Scene<D>, placement: &mut Placement<D>) {
+        placement.note_crack_motion(self.farthest);
+        scene.cracks_mut().clone_from_slice(&self.cracks);
+    }
+}
+
+/// All cracks, moved by nodal displacements. `way(node)` is how much a node counts, in [0, 1], and its displacement,
+/// m; `None` where nothing moves it. Faces are interpolated linearly from the nodes of their side; a face without
+/// nodes moves with the other.
 ///
 /// # Errors
-/// A crack that would have no length left somewhere; none has moved then.
-pub(crate) fn carry<const D: usize>(
-    scene: &mut Scene<D>,
+/// A crack that would have no length left somewhere.
+pub(crate) fn carried<const D: usize>(
+    scene: &Scene<D>,
     grid: &Grid<D>,
-    placement: &mut Placement<D>,
-    way: impl Fn(usize) -> Option<SVector<f64, D>>,
-) -> Result<(), SolveError> {
-    if scene.cracks().is_empty() {
-        return Ok(());
-    }
+    placement: &Placement<D>,
+    way: impl Fn(usize) -> Option<(f64, SVector<f64, D>)>,
+) -> Result<CarriedCracks, SolveError> {
     let faces = Faces {
         cracks: scene.cracks(),
         grid,
-        placement: &*placement,
+        placement,
         way: &way,
     };
-    let mut moved = scene.cracks().to_vec();
-    let mut farthest = 0.0_f64;
-    for crack in &mut moved {
+    let mut moved = CarriedCracks {
+        cracks: scene.cracks().to_vec(),
+        farthest: 0.0,
+    };
+    for crack in &mut moved.cracks {
         let motions = faces.motions(crack);
         let ways = motions.iter().map(|motion| motion.displacement.norm());
-        farthest = ways.fold(farthest, f64::max);
+        moved.farthest = ways.fold(moved.farthest, f64::max);
         let carried = crack.carry(|vertex, _| motions[vertex]);
         carried.map_err(|source| SolveError::Crack {
             crack: crack.name().to_owned(),
@@ -58,9 +73,7 @@ pub(crate) fn carry<const D: usize>(
             time: scene.time(),
         })?;
     }
-    placement.note_crack_motion(farthest);
-    scene.cracks_mut().clone_from_slice(&moved);
-    Ok(())
+    Ok(moved)
 }
 
 struct Faces<'a, F, const D: usize> {
@@ -70,7 +83,7 @@ struct Faces<'a, F, const D: usize> {
     way: &'a F,
 }
 
-impl<F: Fn(usize) -> Option<SVector<f64, D>>, const D: usize> Faces<'_, F, D> {
+impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F, D> {
     fn motions(&self, crack: &CrackLine) -> Vec<VertexMotion> {
         let line = crack.line();
         let last = line.points().len() - 1;
@@ -105,17 +118,17 @@ impl<F: Fn(usize) -> Option<SVector<f64, D>>, const D: usize> Faces<'_, F, D> {
             let index = window_node(tile, entry);
             let node = plane(&self.grid.node(index));
             let cracks = between(self.cracks, 0..self.cracks.len(), x, &node);
-            if let Some(way) = self.way_at(index, cracks) {
-                sum += plane(&way) * weight;
-                weights += weight;
+            if let Some((counts, way)) = self.way_at(index, cracks) {
+                sum += plane(&way) * (weight * counts);
+                weights += weight * counts;
             }
         });
         // A far corner alone says nothing of the face.
         (weights > 0.05).then(|| sum / weights)
     }
 
-    /// Displacement of the field at a node that has these cracks in between.
-    fn way_at(&self, index: [i32; D], cracks: u64) -> Option<SVector<f64, D>> {
+    /// Weight and displacement of the field at a node that has these cracks in between.
+    fn way_at(&self, index: [i32; D], cracks: u64) -> Option<(f64, SVector<f64, D>)> {
         let node = self.placement.node(index)?;
         let splits = &self.placement.splits;
         let mut copies = splits.copies_of(node);

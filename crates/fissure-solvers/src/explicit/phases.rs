@@ -258,7 +258,8 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
     }
 }
 
-fn mean_particle_mass<const D: usize>(scene: &Scene<D>) -> f64 {
+/// kg.
+pub(super) fn mean_particle_mass<const D: usize>(scene: &Scene<D>) -> f64 {
     let bodies = scene.bodies().iter();
     let mass: f64 = bodies
         .map(|body| body.particles().mass.iter().sum::<f64>())

@@ -9,14 +9,18 @@ use rayon::prelude::*;
 use super::contact::{Gap, Meetings};
 use super::grid_update::Nodes;
 use super::kernels::Giving;
-use super::phases::{Pass, Phases, to_grid};
+use super::phases::{Pass, Phases, mean_particle_mass, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::checks::{check_columns, check_until};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carry, refine};
+use crate::crack_motion::{carried, refine};
 use crate::nodes::{MASSIVE, NodeSums, vector};
 use crate::placement::Placement;
 use crate::transfers::Transfers;
+
+/// Share of the mean particle mass at which a node counts half for the faces of cracks: force over mass, and with it the
+/// velocity of a node, knows no bound where only the rim of a particle reaches it.
+const LIGHT: f64 = 0.01;
 
 /// Explicit material-point solver on a grid with a shape function.
 #[derive(Debug)]
@@ -205,6 +209,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
+        let light = LIGHT * mean_particle_mass(scene);
+        let cracks = carried(scene, grid, placement, |node| {
+            let (mass, end) = (sums.mass(node), &nodes.end[node]);
+            (end[MASSIVE] > 0.0).then(|| (mass / (mass + light), vector(end) * dt))
+        })?;
         let mut pass = Pass {
             field: &nodes.end,
             carried: settings.transfer.carries().then_some(&nodes.carried),
@@ -236,10 +245,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         }
 
         // Everything succeeded: the trial becomes the present.
-        let end = &nodes.end;
-        carry(scene, grid, placement, |node| {
-            (end[node][MASSIVE] > 0.0).then(|| vector(&end[node]) * dt)
-        })?;
+        cracks.accept(scene, placement);
         for body in scene.bodies_mut() {
             body.commit()?;
         }

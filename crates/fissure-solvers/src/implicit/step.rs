@@ -12,7 +12,7 @@ use super::settings::ImplicitSettings;
 use super::statistics::{NewtonStop, StepStatistics};
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carry, refine};
+use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::system::System;
@@ -200,9 +200,10 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         mut report: Report<D>,
     ) -> Result<Report<D>, SolveError> {
         let (links, displacement) = (&self.system.links, &self.displacement);
-        carry(scene, &self.grid, &mut self.placement, |node| {
-            links.number(node).map(|_| displacement[node])
+        let cracks = carried(scene, &self.grid, &self.placement, |node| {
+            links.number(node).map(|_| (1.0, displacement[node]))
         })?;
+        cracks.accept(scene, &mut self.placement);
         for body in scene.bodies_mut() {
             body.commit()?;
         }

@@ -8,7 +8,7 @@ use nalgebra::SVector;
 use super::settings::QuasiStaticSettings;
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carry, refine};
+use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::{
     At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
 };
@@ -294,9 +294,10 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             displacement,
             ..
         } = self;
-        carry(scene, grid, placement, |node| {
-            system.links.number(node).map(|_| displacement[node])
+        let cracks = carried(scene, grid, placement, |node| {
+            system.links.number(node).map(|_| (1.0, displacement[node]))
         })?;
+        cracks.accept(scene, placement);
         for body in scene.bodies_mut() {
             body.commit()?;
         }
