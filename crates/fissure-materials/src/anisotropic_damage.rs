@@ -45,6 +45,7 @@ mod tangent;
 mod tensors;
 #[cfg(test)]
 mod tests;
+mod two_cracks;
 
 use fissure_tensor::{Matrix3, Tangent};
 
@@ -55,6 +56,7 @@ pub use self::incremental::{
 pub use self::mixed_mode::MixedMode;
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
+pub use self::two_cracks::{TwoCrackDamage, TwoCrackState};
 
 use crate::softening::Linear;
 use crate::{

@@ -55,7 +55,8 @@ mod wrapping;
 
 pub use anisotropic_damage::{
     AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
-    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage, TwoCrackDamage,
+    TwoCrackState,
 };
 pub use biot::Biot;
 pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};

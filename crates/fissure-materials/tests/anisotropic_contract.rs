@@ -6,7 +6,7 @@ mod nairn;
 
 use fissure_materials::{
     AnisotropicDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode, Onset, PlaneStress,
-    SteppedCircleDamage, Vector3, contract::Contract, softening::Linear,
+    SteppedCircleDamage, TwoCrackDamage, Vector3, contract::Contract, softening::Linear,
 };
 use nairn::Exponential;
 
@@ -150,4 +150,21 @@ fn variants_pass_in_plane_stress() {
     let stepped: SteppedCircleDamage = SteppedCircleDamage::new(law());
     passes_shortly(&PlaneStress(stepped), 4);
     passes_shortly(&PlaneStress(elliptical), 5);
+}
+
+/// A second crack starts at once: between one and many steps that makes a difference, and only there.
+#[test]
+fn two_cracks_pass() {
+    for (mixed, onset) in [
+        (MixedMode::Uncoupled, Onset::Tension),
+        (MixedMode::default(), Onset::TensionShear),
+    ] {
+        let law = TwoCrackDamage(AnisotropicDamage {
+            mixed,
+            onset,
+            ..law()
+        });
+        passes(&law);
+        passes_shortly(&PlaneStress(law), 3);
+    }
 }

@@ -68,7 +68,7 @@ pub mod prelude {
         GradientLeg, Hencky, Increment, Isotropic, J2, Jump, Jwl, Leg, LoweredStrength, Material,
         MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode, NeoHookean, Normal, Onset,
         Orthotropic, OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn, RankineDamage,
-        Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage, SubSteps, Thermal,
+        Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage, SubSteps, Thermal, TwoCrackDamage,
         Traction, TractionSeparation, ViscousDamage, check_parameter, contract, criteria,
         hardening, localization, multi_crack,
         multi_crack::{ModeOne, MultiCrack, Planes},

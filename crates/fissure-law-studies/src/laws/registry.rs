@@ -53,6 +53,7 @@ pub const LAWS: &[Entry] = &[
     decohesive::GEOLOGICAL,
     anisotropic::ANISOTROPIC,
     anisotropic::IN_PLANE,
+    anisotropic::TWO_CRACKS,
     anisotropic::ELLIPTICAL,
     anisotropic::STEPPED,
     anisotropic::ORTHOTROPIC,

@@ -42,6 +42,19 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         })
     }
 
+    /// The tangent at this stress and thickening, from that at a fixed thickness.
+    pub(super) fn thinned(
+        &self,
+        flat: &Increment,
+        stress: &Sym,
+        thickening: f64,
+        fixed: &Tangent,
+    ) -> Tangent {
+        let elastic = self.elastic.scaled(&flat.external.scale);
+        let per_trace = -elastic.poisson / elastic.young / (1.0 + thickening);
+        thinned(fixed, stress, per_trace)
+    }
+
     pub(super) fn in_sheet(
         &self,
         increment: &Increment,
@@ -66,9 +79,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         let thickening = self.thickening(&flat, &response.stress)?;
         let tangent = with_tangent.then(|| {
             let fixed = self.step_tangent::<true>(&kinematics, &step, &flat);
-            let elastic = self.elastic.scaled(&flat.external.scale);
-            let per_trace = -elastic.poisson / elastic.young / (1.0 + thickening);
-            thinned(&fixed, &response.stress, per_trace)
+            self.thinned(&flat, &response.stress, thickening, &fixed)
         });
         Ok(Some(SheetStep {
             response,

@@ -77,7 +77,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
 
     /// `U − 1 − αΔT 1`, or `V − 1 − αΔT 1` from `V − 1`.
     #[inline]
-    fn mechanical(&self, strain: Sym, increment: &Increment) -> Sym {
+    pub(super) fn mechanical(&self, strain: Sym, increment: &Increment) -> Sym {
         if self.thermal_expansion == 0.0 {
             return strain;
         }

@@ -62,6 +62,14 @@ pub(super) const IN_PLANE: Entry = Entry {
     build: |values, space| cracking(anisotropic(values, Onset::InPlane), space),
 };
 
+pub(super) const TWO_CRACKS: Entry = Entry {
+    name: "two-crack-damage",
+    about: "the same with a second crack across the first",
+    parameters: PARAMETERS,
+    plane_stress: true,
+    build: |values, space| cracking(TwoCrackDamage(anisotropic(values, Onset::TensionShear)), space),
+};
+
 pub(super) const ELLIPTICAL: Entry = Entry {
     name: "elliptical-damage",
     about: "the same with two shear damages on an ellipse, not objective, for comparison",
