@@ -5,8 +5,9 @@
 mod nairn;
 
 use fissure_materials::{
-    AnisotropicDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode, Onset, PlaneStress,
-    SteppedCircleDamage, TwoCrackDamage, Vector3, contract::Contract, softening::Linear,
+    AnisotropicDamage, ConjugateDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode,
+    Onset, PlaneStress, SteppedCircleDamage, TwoCrackDamage, Vector3, contract::Contract,
+    softening::Linear,
 };
 use nairn::Exponential;
 
@@ -166,5 +167,20 @@ fn two_cracks_pass() {
         });
         passes(&law);
         passes_shortly(&PlaneStress(law), 3);
+    }
+}
+
+/// P11 and P18 hold where nothing drops at once.
+#[test]
+fn the_conjugate_stress_passes() {
+    for (mixed, onset) in [
+        (MixedMode::Uncoupled, Onset::Tension),
+        (MixedMode::default(), Onset::TensionShear),
+    ] {
+        passes(&ConjugateDamage(AnisotropicDamage {
+            mixed,
+            onset,
+            ..law()
+        }));
     }
 }

@@ -54,6 +54,7 @@ pub const LAWS: &[Entry] = &[
     anisotropic::ANISOTROPIC,
     anisotropic::IN_PLANE,
     anisotropic::TWO_CRACKS,
+    anisotropic::CONJUGATE,
     anisotropic::ELLIPTICAL,
     anisotropic::STEPPED,
     anisotropic::ORTHOTROPIC,

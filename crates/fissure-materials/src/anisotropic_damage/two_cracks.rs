@@ -31,6 +31,7 @@ use self::pair::{MovedPair, Pair};
 use self::sheet::Sheet;
 use super::crack::Demand;
 use super::step::Step;
+use super::tangent::Measure;
 use super::{AnisotropicDamage, AnisotropicDamageState};
 use crate::error::check_below;
 use crate::material::{DIFFERENCE_STEP, difference_tangent};
@@ -172,7 +173,9 @@ impl<N: Softening, T: Softening> TwoCrackDamage<N, T> {
     ) -> Response<TwoCrackState> {
         match step {
             Both::One(step) => {
-                let one = self.0.response(kinematics, step, &old.first);
+                let one = self
+                    .0
+                    .response(kinematics, step, &old.first, Measure::Turned);
                 with_first(&one, old)
             }
             Both::Two(strain, stress, moved, _) => Response {
@@ -192,7 +195,10 @@ impl<N: Softening, T: Softening> TwoCrackDamage<N, T> {
         increment: &Increment,
     ) -> Tangent {
         match step {
-            Both::One(step) => self.0.step_tangent::<SHEET>(kinematics, step, increment),
+            Both::One(step) => {
+                self.0
+                    .step_tangent::<SHEET>(kinematics, step, increment, Measure::Turned)
+            }
             Both::Two(_, stress, moved, _) => {
                 let elastic = self.0.elastic_at::<SHEET>(&increment.external.scale);
                 let modulus = moved.modulus(&elastic);

@@ -67,7 +67,25 @@ pub(super) const TWO_CRACKS: Entry = Entry {
     about: "the same with a second crack across the first",
     parameters: PARAMETERS,
     plane_stress: true,
-    build: |values, space| cracking(TwoCrackDamage(anisotropic(values, Onset::TensionShear)), space),
+    build: |values, space| {
+        cracking(
+            TwoCrackDamage(anisotropic(values, Onset::TensionShear)),
+            space,
+        )
+    },
+};
+
+pub(super) const CONJUGATE: Entry = Entry {
+    name: "conjugate-damage",
+    about: "the same with the stress that does the work",
+    parameters: PARAMETERS,
+    plane_stress: false,
+    build: |values, space| {
+        cracking(
+            ConjugateDamage(anisotropic(values, Onset::TensionShear)),
+            space,
+        )
+    },
 };
 
 pub(super) const ELLIPTICAL: Entry = Entry {
