@@ -5,6 +5,7 @@
 mod bar;
 mod bar_bifurcation;
 mod bar_orientation;
+mod compact_tension;
 mod convergence;
 mod filling;
 mod method;
@@ -31,6 +32,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     )));
     studies.push(Box::new(bar_orientation::BarOrientation));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));
+    studies.push(Box::new(compact_tension::CompactTension));
     studies.extend(nairn::studies());
     studies.extend(fissure_law_studies::studies());
     studies
