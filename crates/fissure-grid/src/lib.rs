@@ -50,15 +50,17 @@ mod error;
 mod grid;
 mod separable;
 pub mod shape;
-pub mod simd;
 mod stencil;
+mod stencils;
 mod tiles;
 mod window;
 
 pub use error::GridError;
+pub use fissure_tensor::simd;
 pub use grid::Grid;
 pub use separable::Separable;
 pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};
+pub use stencils::{OneByOne, SeparableStencils, Stencils};
 pub use tiles::{ABSENT, Tiles};
 pub use window::{TILE, WINDOW, WINDOW_START, tile_of, window_map, window_node};

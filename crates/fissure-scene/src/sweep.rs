@@ -2,7 +2,7 @@
 
 use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
-use fissure_tensor::Band;
+use fissure_tensor::{Band, simd::Simd};
 
 use crate::law::Constants;
 
@@ -191,6 +191,8 @@ pub struct SweepSettings {
     pub band: Band,
     /// Artificial viscosity, if wanted.
     pub viscosity: Option<Viscosity>,
+    /// The vector unit that laws run on.
+    pub simd: Simd,
 }
 
 /// Sums over the particles of a body, in an order that does not depend on threads.

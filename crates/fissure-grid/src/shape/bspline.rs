@@ -3,9 +3,10 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::axes::Axes;
+use crate::axes::Numbers;
 use crate::separable::Line;
-use crate::{Grid, Separable, Shape};
+use crate::simd::EIGHT;
+use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// Quadratic B-splines, continuous gradient. The domain is not used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,6 +18,7 @@ pub struct Bspline3;
 
 impl<const D: usize> Shape<D> for Bspline2 {
     type Stencil = Separable<D, 3>;
+    type Stencils = SeparableStencils<D, 3>;
 
     fn name(&self) -> &'static str {
         "bspline2"
@@ -31,6 +33,17 @@ impl<const D: usize> Shape<D> for Bspline2 {
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
         Separable::new(grid, tile, x, quadratic)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        SeparableStencils::new(grid, tile, x, quadratic)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -48,6 +61,7 @@ impl<const D: usize> Shape<D> for Bspline2 {
 
 impl<const D: usize> Shape<D> for Bspline3 {
     type Stencil = Separable<D, 4>;
+    type Stencils = SeparableStencils<D, 4>;
 
     fn name(&self) -> &'static str {
         "bspline3"
@@ -62,6 +76,17 @@ impl<const D: usize> Shape<D> for Bspline3 {
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
         Separable::new(grid, tile, x, cubic)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        SeparableStencils::new(grid, tile, x, cubic)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -79,7 +104,7 @@ impl<const D: usize> Shape<D> for Bspline3 {
 
 /// The nearest node and the ones beside it; `d` is the distance to it in cells.
 #[inline(always)]
-fn quadratic(t: Axes) -> Line<3> {
+fn quadratic<const N: usize>(t: Numbers<N>) -> Line<3, N> {
     let nearest = t.step(0.5);
     let d = t - nearest;
     let (below, above) = (-d + 0.5, d + 0.5);
@@ -91,12 +116,12 @@ fn quadratic(t: Axes) -> Line<3> {
 }
 
 #[inline(always)]
-fn cubic(t: Axes) -> Line<4> {
+fn cubic<const N: usize>(t: Numbers<N>) -> Line<4, N> {
     let s = -t + 1.0;
     let (t2, s2) = (t * t, s * s);
     let sixth = 1.0 / 6.0;
     (
-        Axes::splat(-1.0),
+        Numbers::splat(-1.0),
         [
             s2 * s * sixth,
             t2 * (t * 0.5 + -1.0) + 2.0 / 3.0,

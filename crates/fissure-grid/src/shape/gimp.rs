@@ -3,9 +3,10 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::axes::Axes;
+use crate::axes::Numbers;
 use crate::separable::Line;
-use crate::{Grid, Separable, Shape};
+use crate::simd::EIGHT;
+use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// uGIMP: linear functions averaged over a cube of fixed size round the particle (Bardenhagen & Kober 2004).
 ///
@@ -19,6 +20,7 @@ const SLACK: f64 = 1e-9;
 
 impl<const D: usize> Shape<D> for Gimp {
     type Stencil = Separable<D, 3>;
+    type Stencils = SeparableStencils<D, 3>;
 
     fn name(&self) -> &'static str {
         "gimp"
@@ -32,14 +34,24 @@ impl<const D: usize> Shape<D> for Gimp {
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        let half = half_length(domain) * grid.inverse_spacing();
-        if !(0.0..=0.5 + SLACK).contains(&half) {
-            return None;
-        }
-        // A point is the limit of a small box.
-        let half = half.clamp(f64::MIN_POSITIVE, 0.5);
-        let inverse = 0.5 / half;
+        let (half, inverse) = half_and_inverse(grid, domain)?;
         Separable::new(grid, tile, x, |t| averaged(t, half, inverse))
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        match half_and_inverse(grid, &domain(0)) {
+            Some((half, inverse)) => {
+                SeparableStencils::new(grid, tile, x, |t| averaged(t, half, inverse))
+            }
+            None => SeparableStencils::none(),
+        }
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -49,6 +61,21 @@ impl<const D: usize> Shape<D> for Gimp {
     fn band(&self, spacing: f64) -> Band {
         Band::Uniform(spacing)
     }
+}
+
+/// Half-length in cells and half its inverse; `None` for a box that is too large.
+#[inline(always)]
+fn half_and_inverse<const D: usize>(
+    grid: &Grid<D>,
+    domain: &SMatrix<f64, D, D>,
+) -> Option<(f64, f64)> {
+    let half = half_length(domain) * grid.inverse_spacing();
+    if !(0.0..=0.5 + SLACK).contains(&half) {
+        return None;
+    }
+    // A point is the limit of a small box.
+    let half = half.clamp(f64::MIN_POSITIVE, 0.5);
+    Some((half, 0.5 / half))
 }
 
 /// Half the edge of the cube of equal volume, m.
@@ -78,13 +105,13 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
 /// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
 /// the kink is outside, and the rest of `d` acts as on linear functions.
 #[inline(always)]
-fn averaged(t: Axes, l: f64, inverse: f64) -> Line<3> {
+fn averaged<const N: usize>(t: Numbers<N>, l: f64, inverse: f64) -> Line<3, N> {
     let nearest = t.step(0.5);
     let d = t - nearest;
-    let a = d.max(Axes::splat(-l)).min(Axes::splat(l));
+    let a = d.max(Numbers::splat(-l)).min(Numbers::splat(l));
     let (left, right) = (-a + l, a + l);
     let (below, above) = (left * inverse, right * inverse);
-    let zero = Axes::splat(0.0);
+    let zero = Numbers::splat(0.0);
     let low = below * left * 0.5 + (a - d).max(zero);
     let high = above * right * 0.5 + (d - a).max(zero);
     (

@@ -1,10 +1,9 @@
 //! From nodes to particles and on to the nodes again, tile by tile.
 
-use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use fissure_grid::simd::{Lanes, SimdTask};
-use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencil};
+use fissure_grid::simd::{EIGHT, Lanes, SimdTask};
+use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -207,39 +206,46 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
             new,
         } = self;
         let pass = tile.pass;
-        for row in 0..old.len() {
-            let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
-            let stencil = pass
-                .transfers
-                .stencil_at(&pass.half_edges, tile.coordinates, x, f)
-                .ok_or(row)?;
-            // Kept from the compiler, which else sinks each sum into the branch that uses it and
-            // spills everything they share.
-            let gathered = black_box(stencil.gather::<L, GRADIENT, MOMENT>(lanes, tile.field));
-            if pass.moves {
-                let carried = tile.carried.map(|carried| {
-                    vector(&stencil.gather::<L, false, false>(lanes, carried).value)
-                });
-                pass.move_particle(row, &gathered, carried, old, new);
-                if !pass.transfers.grid.contains(&new.position[row]) {
-                    return Err(row);
+        for first in (0..old.len()).step_by(EIGHT) {
+            let (x, f) = (&old.position[first..], &old.deformation_gradient[first..]);
+            let stencils =
+                pass.transfers
+                    .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            let rows = first..(first + EIGHT).min(old.len());
+            for row in rows.clone() {
+                let place = row - first;
+                if !stencils.fits(place) {
+                    return Err(pass.first_outside(first..row, new).unwrap_or(row));
+                }
+                let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, place, tile.field);
+                if pass.moves {
+                    let carried = tile.carried.map(|carried| {
+                        stencils
+                            .gather::<L, false, false>(lanes, place, carried)
+                            .value
+                    });
+                    pass.move_particle(lanes, row, &gathered, carried, old, new);
+                }
+                if pass.strains {
+                    let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
+                    new.deformation_gradient[row] = pass.strained(lanes, &gathered, x, f);
+                }
+                if pass.giving == Giving::MomentumBack {
+                    let affine = if MOMENT || GRADIENT {
+                        new.affine.get(row)
+                    } else {
+                        None
+                    };
+                    let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
+                    if affine.is_some() {
+                        stencils.scatter::<L, true>(lanes, place, &gift, tile.sums);
+                    } else {
+                        stencils.scatter::<L, false>(lanes, place, &gift, tile.sums);
+                    }
                 }
             }
-            if pass.strains {
-                new.deformation_gradient[row] = pass.strained(&gathered, x, f);
-            }
-            if pass.giving == Giving::MomentumBack {
-                let affine = if MOMENT || GRADIENT {
-                    new.affine.get(row)
-                } else {
-                    None
-                };
-                let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
-                if affine.is_some() {
-                    stencil.scatter::<L, false, true>(lanes, &gift, tile.sums);
-                } else {
-                    stencil.scatter::<L, false, false>(lanes, &gift, tile.sums);
-                }
+            if pass.moves && let Some(row) = pass.first_outside(rows, new) {
+                return Err(row);
             }
         }
         Ok(())
@@ -272,47 +278,71 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
         // Straining alone leaves the velocities of the trial as they were.
         let velocity = if back { old } else { new };
         let forces = pass.giving != Giving::MomentumOn;
-        for row in 0..new.len() {
-            let x = &place.position[row];
+        for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
-            let f = &place.deformation_gradient[row];
-            let stencil = pass
-                .transfers
-                .stencil_at(&pass.half_edges, tile.coordinates, x, f);
-            let Some(stencil) = stencil else {
-                pass.strayed.store(true, Relaxed);
-                continue;
-            };
-            let affine = if AFFINE {
-                velocity.affine.get(row)
-            } else {
-                None
-            };
-            let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
-            if forces {
-                let volume = constants.volume[row] * new.deformation_gradient[row].determinant();
-                let stress = &new.stress[row];
-                add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
-                stencil.scatter::<L, true, AFFINE>(lanes, &gift, tile.sums);
-            } else {
-                stencil.scatter::<L, false, AFFINE>(lanes, &gift, tile.sums);
+            let (x, f) = (&place.position[first..], &place.deformation_gradient[first..]);
+            let stencils =
+                pass.transfers
+                    .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            for row in first..(first + EIGHT).min(new.len()) {
+                if !stencils.fits(row - first) {
+                    pass.strayed.store(true, Relaxed);
+                    continue;
+                }
+                let affine = if AFFINE {
+                    velocity.affine.get(row)
+                } else {
+                    None
+                };
+                let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
+                if forces {
+                    let volume =
+                        constants.volume[row] * new.deformation_gradient[row].determinant();
+                    let (stress, x) = (&new.stress[row], &place.position[row]);
+                    add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
+                }
+                if forces || AFFINE {
+                    stencils.scatter::<L, true>(lanes, row - first, &gift, tile.sums);
+                } else {
+                    stencils.scatter::<L, false>(lanes, row - first, &gift, tile.sums);
+                }
             }
         }
     }
 }
 
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
+    /// The first of these rows that the trial has outside the grid.
     #[inline(always)]
-    fn move_particle(
+    fn first_outside(
         &self,
+        mut rows: std::ops::Range<usize>,
+        new: &MotionSlicesMut<'_, D>,
+    ) -> Option<usize> {
+        let grid = self.transfers.grid;
+        let mut all_inside = true;
+        for x in &new.position[rows.clone()] {
+            all_inside &= grid.contains(x);
+        }
+        if all_inside {
+            return None;
+        }
+        rows.find(|&row| !grid.contains(&new.position[row]))
+    }
+
+    #[inline(always)]
+    fn move_particle<L: Lanes>(
+        &self,
+        lanes: L,
         row: usize,
-        gathered: &Gathered<D>,
-        carried: Option<SVector<f64, D>>,
+        gathered: &Gathered<L::Four, D>,
+        carried: Option<L::Four>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) {
-        let end: SVector<f64, D> = vector(&gathered.value);
+        let end: SVector<f64, D> = vector(&lanes.store4(gathered.value));
         new.position[row] = old.position[row] + end * self.dt;
+        let carried = carried.map(|carried| vector(&lanes.store4(carried)));
         new.velocity[row] = match (self.transfer, carried) {
             (Transfer::Flip { pic }, Some(gain)) => {
                 (old.velocity[row] + gain) * (1.0 - pic) + end * pic
@@ -321,34 +351,44 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             (_, None) => end,
         };
         if self.is_affine() {
-            new.affine[row] = match self.affine_inverse {
-                Some(inverse) => SMatrix::from_fn(|i, j| gathered.moment[j][i] * inverse),
-                None => gradient(gathered),
+            let columns = match self.affine_inverse {
+                Some(inverse) => scaled(lanes, &gathered.moment, inverse),
+                None => gradient(lanes, gathered),
             };
+            new.affine[row] = matrix(lanes, &columns);
         }
     }
 
     #[inline(always)]
-    fn strained(
+    fn strained<L: Lanes>(
         &self,
-        gathered: &Gathered<D>,
+        lanes: L,
+        gathered: &Gathered<L::Four, D>,
         x: &SVector<f64, D>,
         f_old: &Matrix3<f64>,
     ) -> Matrix3<f64> {
-        let change = gradient(gathered) * self.dt;
-        let mut step = SMatrix::<f64, D, D>::identity() + change;
-        let mut f = *f_old;
+        let mut change = scaled(lanes, &gradient(lanes, gathered), self.dt);
         if self.backward {
-            let inverse = (SMatrix::<f64, D, D>::identity() - change).try_inverse();
-            step = inverse.unwrap_or(step);
+            let one = SMatrix::<f64, D, D>::identity();
+            if let Some(inverse) = (one - matrix(lanes, &change)).try_inverse() {
+                change = columns(lanes, &(inverse - one));
+            }
         }
-        for i in 0..D {
-            for j in 0..3 {
-                f[(i, j)] = (0..D).map(|k| step[(i, k)] * f_old[(k, j)]).sum();
+        // Columns of F with a fourth number that is not used.
+        let mut f = *f_old;
+        for k in 0..3 {
+            let mut column = lanes.load4([f_old[(0, k)], f_old[(1, k)], f_old[(2, k)], 0.0]);
+            for j in 0..D {
+                column = lanes.mul_add4(change[j], lanes.splat4(f_old[(j, k)]), column);
+            }
+            let column = lanes.store4(column);
+            for i in 0..3 {
+                f[(i, k)] = column[i];
             }
         }
         if self.transfers.kinematics == Kinematics::Axisymmetric {
-            let hoop = 1.0 + self.dt * gathered.value[0] / x[0];
+            let radial = lanes.store4(gathered.value)[0];
+            let hoop = 1.0 + self.dt * radial / x[0];
             f.m33 *= if self.backward {
                 1.0 / (2.0 - hoop)
             } else {
@@ -359,12 +399,58 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     }
 }
 
-/// Velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node without
-/// mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
+/// Columns of the velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node
+/// without mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
 #[inline(always)]
-fn gradient<const D: usize>(gathered: &Gathered<D>) -> SMatrix<f64, D, D> {
-    SMatrix::from_fn(|i, j| {
-        let column = &gathered.gradient[j];
-        column[i] - gathered.value[i] * column[MASSIVE]
-    })
+fn gradient<L: Lanes, const D: usize>(
+    lanes: L,
+    gathered: &Gathered<L::Four, D>,
+) -> [L::Four; D] {
+    let mut columns = gathered.gradient;
+    for column in &mut columns {
+        let massive = lanes.store4(*column)[MASSIVE];
+        *column = lanes.mul_add4(gathered.value, lanes.splat4(-massive), *column);
+    }
+    columns
+}
+
+/// Columns times a number.
+#[inline(always)]
+fn scaled<L: Lanes, const D: usize>(
+    lanes: L,
+    columns: &[L::Four; D],
+    factor: f64,
+) -> [L::Four; D] {
+    let mut scaled = *columns;
+    for column in &mut scaled {
+        *column = lanes.mul4(*column, lanes.splat4(factor));
+    }
+    scaled
+}
+
+/// The matrix of these columns.
+#[inline(always)]
+fn matrix<L: Lanes, const D: usize>(lanes: L, columns: &[L::Four; D]) -> SMatrix<f64, D, D> {
+    let mut matrix = SMatrix::zeros();
+    for j in 0..D {
+        let column = lanes.store4(columns[j]);
+        for i in 0..D {
+            matrix[(i, j)] = column[i];
+        }
+    }
+    matrix
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+fn columns<L: Lanes, const D: usize>(lanes: L, matrix: &SMatrix<f64, D, D>) -> [L::Four; D] {
+    let mut columns = [lanes.splat4(0.0); D];
+    for j in 0..D {
+        let mut column = [0.0; 4];
+        for i in 0..D {
+            column[i] = matrix[(i, j)];
+        }
+        columns[j] = lanes.load4(column);
+    }
+    columns
 }

@@ -70,7 +70,7 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
         }
         gift
     };
-    let spread = if affine {
+    let spread = if affine || forces {
         transfers.spread::<true>(scene, sums, give)
     } else {
         transfers.spread::<false>(scene, sums, give)
@@ -195,6 +195,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 dt: self.dt,
                 band: self.settings.band.band(shape, grid, body),
                 viscosity: self.viscosity(),
+                simd: self.transfers.simd,
             };
             let part = body
                 .sweep(runs, &kernel, &sweep)
