@@ -72,13 +72,7 @@ impl<const N: usize> Numbers<N> {
     /// 1 where between the limits or at one, else 0; also for what is no number.
     #[inline(always)]
     pub(crate) fn within(self, low: f64, high: f64) -> Self {
-        self.each(|x| {
-            if (x >= low) & (x <= high) {
-                1.0
-            } else {
-                0.0
-            }
-        })
+        self.each(|x| if (x >= low) & (x <= high) { 1.0 } else { 0.0 })
     }
 }
 

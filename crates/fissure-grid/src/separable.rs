@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::axes::{AXES, Axes, Numbers};
+use crate::axes::{Axes, Numbers};
 use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START};
 
 /// Window stride of axis 1.
@@ -13,6 +13,12 @@ const LAYER: usize = (WINDOW * WINDOW) as usize;
 /// Weights along each axis: the first node relative to the particle's cell, values, and slopes per cell width.
 pub(crate) type Line<const K: usize, const N: usize> =
     (Numbers<N>, [Numbers<N>; K], [Numbers<N>; K]);
+
+/// The weights of a shape along an axis, given coordinates [0, 1] in the cell.
+pub(crate) trait Profile<const K: usize> {
+    /// Must be `#[inline(always)]`: a call would not be compiled for the vector unit.
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<K, N>;
+}
 
 /// A stencil that is a tensor product: K nodes along each of D axes, `N = Π_a n_a`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,13 +42,13 @@ impl<const D: usize, const K: usize> Separable<D, K> {
         grid: &Grid<D>,
         tile: [i32; D],
         x: &SVector<f64, D>,
-        line: impl Fn(Axes) -> Line<K, AXES>,
+        profile: &impl Profile<K>,
     ) -> Option<Self> {
         if !grid.contains(x) {
             return None;
         }
         let (cell, local) = grid.cell_and_local(x);
-        let (first, values, slopes) = line(local);
+        let (first, values, slopes) = profile.line(local);
         let window = Axes::from_axes::<D>(|axis| {
             f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START)
         });

@@ -1,15 +1,19 @@
 //! Stencils of eight particles of a tile: what transfers between particles and nodes go through.
 
+use std::hint::black_box;
+
 use nalgebra::SVector;
 
 use crate::axes::Numbers;
-use crate::separable::Line;
+use crate::separable::Profile;
 use crate::simd::{EIGHT, Lanes};
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
-use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START};
+use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START, sums_entry};
 
 /// Window stride of axis 1.
 const ROW: usize = WINDOW as usize;
+/// Most pairs of nodes along axis 0.
+const PAIRS: usize = 2;
 /// Window stride of axis 2.
 const LAYER: usize = (WINDOW * WINDOW) as usize;
 
@@ -31,7 +35,7 @@ pub trait Stencils<const D: usize> {
     ) -> Gathered<L::Four, D>;
 
     /// Adds to the sums of every node: `N value`, and with `E` what goes by gradient and weighted arm, as [`Gift`] says.
-    /// `sums` holds an element for each entry of the window.
+    /// `sums` holds an element for each entry of the window, at its [`sums_entry`](crate::sums_entry).
     fn scatter<L: Lanes, const E: bool>(
         &self,
         lanes: L,
@@ -102,7 +106,7 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
             } else {
                 SVector::zeros()
             };
-            for (c, sum) in sums[window].iter_mut().enumerate() {
+            for (c, sum) in sums[sums_entry(window)].iter_mut().enumerate() {
                 *sum += gift.value[c] * weight;
                 for a in 0..if E { D } else { 0 } {
                     let factor = if c < FIELD {
@@ -117,19 +121,67 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
     }
 }
 
-/// Stencils that are products of one weight per axis, K nodes along each of D axes; every number eight times.
+/// Stencils that are products of one weight per axis, K nodes along each of D axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
 pub struct SeparableStencils<const D: usize, const K: usize> {
-    values: [[[f64; EIGHT]; K]; D],
-    /// Derivatives of the values, 1/m.
-    slopes: [[[f64; EIGHT]; K]; D],
-    /// Values times arms, m.
-    moments: [[[f64; EIGHT]; K]; D],
+    /// Along each axis; those that space has not are not used.
+    along: [Along<K>; 3],
     /// Window index of the lowest node.
     base: [f64; EIGHT],
     /// 1 for those that fit, else 0.
     fits: [f64; EIGHT],
+}
+
+/// The weights of K nodes along an axis, each for eight particles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+struct Along<const K: usize> {
+    values: [[f64; EIGHT]; K],
+    /// Derivatives of the values, 1/m.
+    slopes: [[f64; EIGHT]; K],
+    /// Values times arms, m.
+    moments: [[f64; EIGHT]; K],
+}
+
+impl<const K: usize> Along<K> {
+    const NOTHING: Self = Self {
+        values: [[0.0; EIGHT]; K],
+        slopes: [[0.0; EIGHT]; K],
+        moments: [[0.0; EIGHT]; K],
+    };
+
+    /// The weights along an axis, and what they add to `base` and `fits`.
+    #[inline(always)]
+    fn new<const D: usize>(
+        grid: &Grid<D>,
+        axis: usize,
+        tile: i32,
+        x: &[SVector<f64, D>; EIGHT],
+        profile: &impl Profile<K>,
+        base: &mut Numbers<EIGHT>,
+        fits: &mut Numbers<EIGHT>,
+    ) -> Self {
+        let mut position = Numbers::splat(0.0);
+        for place in 0..EIGHT {
+            position.0[place] = x[place][axis];
+        }
+        let (cell, local) = grid.along(axis, position);
+        let (first, values, slopes) = profile.line(local);
+        let window = f64::from(TILE) * f64::from(tile) + f64::from(WINDOW_START);
+        let start = cell + first + -window;
+        *fits = *fits
+            * start.within(0.0, f64::from(WINDOW) - K as f64)
+            * position.within(grid.origin()[axis], grid.max()[axis]);
+        *base = *base + start * (1 << (3 * axis)) as f64;
+        let arm = (first - local) * grid.spacing();
+        let mut along = Self::NOTHING;
+        for k in 0..K {
+            along.values[k] = values[k].0;
+            along.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
+            along.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
+        }
+        along
+    }
 }
 
 impl<const D: usize, const K: usize> SeparableStencils<D, K> {
@@ -139,35 +191,24 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[SVector<f64, D>; EIGHT],
-        line: impl Fn(Numbers<EIGHT>) -> Line<K, EIGHT>,
+        profile: &impl Profile<K>,
     ) -> Self {
-        let nothing = [[[0.0; EIGHT]; K]; D];
-        let (mut values, mut slopes, mut moments) = (nothing, nothing, nothing);
         let (mut base, mut fits) = (Numbers::splat(0.0), Numbers::splat(1.0));
-        for axis in 0..D {
-            let mut position = Numbers::splat(0.0);
-            for place in 0..EIGHT {
-                position.0[place] = x[place][axis];
-            }
-            let (cell, local) = grid.along(axis, position);
-            let (first, value, slope) = line(local);
-            let window = f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START);
-            let start = cell + first + -window;
-            fits = fits
-                * start.within(0.0, f64::from(WINDOW) - K as f64)
-                * position.within(grid.origin()[axis], grid.max()[axis]);
-            base = base + start * (1 << (3 * axis)) as f64;
-            let arm = (first - local) * grid.spacing();
-            for k in 0..K {
-                values[axis][k] = value[k].0;
-                slopes[axis][k] = (slope[k] * grid.inverse_spacing()).0;
-                moments[axis][k] = (value[k] * (arm + k as f64 * grid.spacing())).0;
-            }
-        }
+        let (b, f) = (&mut base, &mut fits);
+        // Written out, so that no axis is a number at run time.
+        let along_0 = Along::new(grid, 0, tile[0], x, profile, b, f);
+        let along_1 = if D > 1 {
+            Along::new(grid, 1, tile[1 % D], x, profile, b, f)
+        } else {
+            Along::NOTHING
+        };
+        let along_2 = if D > 2 {
+            Along::new(grid, 2, tile[2 % D], x, profile, b, f)
+        } else {
+            Along::NOTHING
+        };
         Self {
-            values,
-            slopes,
-            moments,
+            along: [along_0, along_1, along_2],
             base: base.0,
             fits: fits.0,
         }
@@ -175,11 +216,8 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
 
     /// Nothing that fits.
     pub(crate) fn none() -> Self {
-        let nothing = [[[0.0; EIGHT]; K]; D];
         Self {
-            values: nothing,
-            slopes: nothing,
-            moments: nothing,
+            along: [Along::NOTHING; 3],
             base: [0.0; EIGHT],
             fits: [0.0; EIGHT],
         }
@@ -204,9 +242,9 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
             return (0.0, 0.0, 0.0);
         }
         (
-            self.values[axis][k][place],
-            self.slopes[axis][k][place],
-            self.moments[axis][k][place],
+            self.along[axis].values[k][place],
+            self.along[axis].slopes[k][place],
+            self.along[axis].moments[k][place],
         )
     }
 
@@ -222,7 +260,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     const SUMS_SPAN: usize = match D {
         1 => K,
         2 => ROW * (K - 1) + K,
-        _ => (ROW + LAYER) * (K - 1) + K,
+        _ => (ROW + sums_entry(LAYER)) * (K - 1) + K,
     };
 }
 
@@ -242,12 +280,15 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         field: &[f64],
     ) -> Gathered<L::Four, D> {
         let zero = lanes.splat(0.0);
-        let (mut value, mut gradient, mut moment) = (zero, [zero; D], [zero; D]);
         let start = FIELD * self.base(place);
         let field = &field[start..start + Self::FIELD_SPAN];
-        for pair in 0..K.div_ceil(2) {
-            let (mut sum, mut gradients, mut moments) = (zero, [zero; 3], [zero; 3]);
-            for j in 0..Self::nodes(1) {
+        // Of each pair of nodes along axis 0, summed along the others.
+        let mut sum = [zero; PAIRS];
+        let (mut gradients, mut moments) = ([[zero; 3]; PAIRS], [[zero; 3]; PAIRS]);
+        for j in 0..rolled::<D>(Self::nodes(1)) {
+            let (w, slope, arm) = self.factors(place, 1, j);
+            let (w, slope, arm) = (lanes.splat(w), lanes.splat(slope), lanes.splat(arm));
+            for pair in 0..K.div_ceil(2) {
                 let (mut line, mut line_gradient, mut line_moment) = (zero, zero, zero);
                 for k in 0..Self::nodes(2) {
                     let node = LAYER * k + ROW * j + 2 * pair;
@@ -266,37 +307,40 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                     }
                 }
                 if D < 2 {
-                    sum = line;
+                    sum[pair] = line;
                     continue;
                 }
-                let (w, slope, arm) = self.factors(place, 1, j);
-                let w = lanes.splat(w);
-                sum = lanes.mul_add(line, w, sum);
+                sum[pair] = lanes.mul_add(line, w, sum[pair]);
                 if G {
-                    gradients[1] = lanes.mul_add(line, lanes.splat(slope), gradients[1]);
-                    gradients[2] = lanes.mul_add(line_gradient, w, gradients[2]);
+                    let sums = &mut gradients[pair];
+                    sums[1] = lanes.mul_add(line, slope, sums[1]);
+                    sums[2] = lanes.mul_add(line_gradient, w, sums[2]);
                 }
                 if M {
-                    moments[1] = lanes.mul_add(line, lanes.splat(arm), moments[1]);
-                    moments[2] = lanes.mul_add(line_moment, w, moments[2]);
+                    let sums = &mut moments[pair];
+                    sums[1] = lanes.mul_add(line, arm, sums[1]);
+                    sums[2] = lanes.mul_add(line_moment, w, sums[2]);
                 }
             }
+        }
+        let (mut value, mut gradient, mut moment) = (zero, [zero; D], [zero; D]);
+        for pair in 0..K.div_ceil(2) {
             let low = self.factors(place, 0, 2 * pair);
             let high = self.factors(place, 0, 2 * pair + 1);
             let w = lanes.pair(low.0, high.0);
-            value = lanes.mul_add(sum, w, value);
+            value = lanes.mul_add(sum[pair], w, value);
             if G {
-                gradient[0] = lanes.mul_add(sum, lanes.pair(low.1, high.1), gradient[0]);
+                gradient[0] = lanes.mul_add(sum[pair], lanes.pair(low.1, high.1), gradient[0]);
             }
             if M {
-                moment[0] = lanes.mul_add(sum, lanes.pair(low.2, high.2), moment[0]);
+                moment[0] = lanes.mul_add(sum[pair], lanes.pair(low.2, high.2), moment[0]);
             }
             for axis in 1..D {
                 if G {
-                    gradient[axis] = lanes.mul_add(gradients[axis], w, gradient[axis]);
+                    gradient[axis] = lanes.mul_add(gradients[pair][axis], w, gradient[axis]);
                 }
                 if M {
-                    moment[axis] = lanes.mul_add(moments[axis], w, moment[axis]);
+                    moment[axis] = lanes.mul_add(moments[pair][axis], w, moment[axis]);
                 }
             }
         }
@@ -326,7 +370,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         let zero = lanes.splat(0.0);
         let mut extra = [[zero; K]; 3];
         if E {
-            for axis in 0..D {
+            for axis in 1..D {
                 let sloped = lanes.load(&gift.sloped[axis]);
                 for (k, extra) in extra[axis].iter_mut().enumerate() {
                     let (_, slope, arm) = self.factors(place, axis, k);
@@ -334,11 +378,15 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                 }
             }
         }
-        let base = self.base(place);
+        let sloped = lanes.load(&gift.sloped[0]);
+        let base = sums_entry(self.base(place));
         let sums = &mut sums[base..base + Self::SUMS_SPAN];
-        for i in 0..K {
-            let w0 = self.values[0][i][place];
-            let along_0 = lanes.mul_add(value, lanes.splat(w0), extra[0][i]);
+        for i in 0..rolled::<D>(K) {
+            let (w0, slope, arm) = self.factors(place, 0, i);
+            let mut along_0 = lanes.mul(value, lanes.splat(w0));
+            if E {
+                along_0 = lanes.mul_add(sloped, lanes.pair(arm, slope), along_0);
+            }
             for j in 0..Self::nodes(1) {
                 let node = ROW * j + i;
                 if D == 1 {
@@ -346,7 +394,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                     add(lanes, along_0, 1.0, sum, &mut sums[node]);
                     continue;
                 }
-                let w1 = self.values[1][j][place];
+                let w1 = self.along[1].values[j][place];
                 if D == 2 {
                     let mut sum = lanes.load(&sums[node]);
                     if E {
@@ -361,16 +409,29 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                 }
                 let both = lanes.splat(w0 * w1);
                 for (k, extra) in extra[2].iter().enumerate() {
-                    let node = LAYER * k + node;
+                    let node = sums_entry(LAYER) * k + node;
                     let mut sum = lanes.load(&sums[node]);
                     if E {
                         sum = lanes.mul_add(*extra, both, sum);
                     }
-                    add(lanes, along_1, self.values[2][k][place], sum, &mut sums[node]);
+                    add(
+                        lanes,
+                        along_1,
+                        self.along[2].values[k][place],
+                        sum,
+                        &mut sums[node],
+                    );
                 }
             }
         }
     }
+}
+
+/// The end of a loop that in space is to stay one: with all of its turns written out there would be more numbers at
+/// hand than registers.
+#[inline(always)]
+fn rolled<const D: usize>(end: usize) -> usize {
+    if D == 3 { black_box(end) } else { end }
 }
 
 /// Stores `x weight + sum`.

@@ -47,8 +47,15 @@ impl EightPoints {
     pub fn gradient(&self, place: usize) -> [f64; 9] {
         let f = &self.deformation_gradient;
         [
-            f[0][place], f[1][place], f[2][place], f[3][place], f[4][place], f[5][place],
-            f[6][place], f[7][place], f[8][place],
+            f[0][place],
+            f[1][place],
+            f[2][place],
+            f[3][place],
+            f[4][place],
+            f[5][place],
+            f[6][place],
+            f[7][place],
+            f[8][place],
         ]
     }
 }
@@ -92,7 +99,12 @@ impl EightResponses {
         let s = &self.stress;
         Sym {
             mandel: [
-                s[0][place], s[1][place], s[2][place], s[3][place], s[4][place], s[5][place],
+                s[0][place],
+                s[1][place],
+                s[2][place],
+                s[3][place],
+                s[4][place],
+                s[5][place],
             ],
         }
     }

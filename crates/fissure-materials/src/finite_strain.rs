@@ -46,8 +46,7 @@ impl LeftStrain {
             xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
         let (xx, yy, zz) = (xx - 1.0, yy - 1.0, zz - 1.0);
         let second = (xx * yy - xy * yx) + (yy * zz - yz * zy) + (zz * xx - zx * xz);
-        let third =
-            xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
+        let third = xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
         let dilation = xx + yy + zz + second + third;
         let rows = [
             xx * xx + xy * xy + xz * xz,
@@ -57,7 +56,9 @@ impl LeftStrain {
         let square = rows[0] + rows[1] + rows[2];
         // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
         // or less while the other is not. A component that is not finite makes the square so.
-        let sound = (determinant > 0.0) & (determinant < f64::INFINITY) & (dilation > -1.0)
+        let sound = (determinant > 0.0)
+            & (determinant < f64::INFINITY)
+            & (dilation > -1.0)
             & (square < f64::INFINITY);
         let strain = Self {
             excess: Sym {
@@ -178,7 +179,7 @@ pub(crate) fn log_of_one_plus(x: f64) -> (f64, f64) {
     } else {
         x - (sum - 1.0)
     };
-    let c = if near { 0.0 } else { rounded / sum };
+    let c = if near { 0.0 } else { rounded * (1.0 / sum) };
     let f = if near {
         x
     } else {
@@ -199,8 +200,7 @@ pub(crate) fn log_of_one_plus(x: f64) -> (f64, f64) {
     let log = s * (half + series) + (k * LN_2_LOW + c) - half + f + k * LN_2_HIGH;
     // `x s − 2 (s³/3 + s⁵/5 + …)`, where `f = x`; the first term left out is below 1e-19 of the sum.
     let tail = 1.0 / 3.0
-        + z * (1.0 / 5.0
-            + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z * (1.0 / 11.0 + z * (1.0 / 13.0)))));
+        + z * (1.0 / 5.0 + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z * (1.0 / 11.0 + z * (1.0 / 13.0)))));
     let small = x * s - 2.0 * s * z * tail;
     (log, if x.abs() <= 0.1 { small } else { x - log })
 }
@@ -226,7 +226,10 @@ mod tests {
             if x > -1.0 {
                 let (found, exact) = (log_of_one_plus(x).0, x.ln_1p());
                 let gap = (found - exact).abs();
-                assert!(gap <= f64::EPSILON * exact.abs(), "{x:e}: {found:e}, {exact:e}");
+                assert!(
+                    gap <= f64::EPSILON * exact.abs(),
+                    "{x:e}: {found:e}, {exact:e}"
+                );
             }
         }
         assert_eq!(log_of_one_plus(0.0), (0.0, 0.0));

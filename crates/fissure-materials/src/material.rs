@@ -5,9 +5,7 @@ use std::fmt::Debug;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{
-    EightPoints, EightResponses, Increment, MaterialError, Response, Scale, SheetStep,
-};
+use crate::{EightPoints, EightResponses, Increment, MaterialError, Response, Scale, SheetStep};
 
 /// A constitutive law: a pure function from an increment and an old state to a new state.
 ///

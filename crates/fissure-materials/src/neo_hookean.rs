@@ -87,8 +87,9 @@ impl Constants {
     /// where `λ < 0`. At small strain nothing is lost.
     #[inline(always)]
     fn wave_speed(&self, strain: &LeftStrain) -> f64 {
-        let deviator = strain.excess.deviator();
-        let squared = 1.0 + strain.excess.mean() + 2.0 * (deviator.dot(&deviator) / 6.0).sqrt();
+        let mean = strain.excess.trace() * (1.0 / 3.0);
+        let deviator = strain.excess - Sym::IDENTITY * mean;
+        let squared = 1.0 + mean + 2.0 * (deviator.dot(&deviator) * (1.0 / 6.0)).sqrt();
         let pressure = if self.lambda > 0.0 {
             self.lambda * (1.0 / strain.jacobian() - 1.0)
         } else {

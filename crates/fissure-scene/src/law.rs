@@ -229,6 +229,12 @@ impl<S> Swept<S> {
     }
 }
 
+/// Of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 fn scale_of(scale: Option<&[ParticleScale]>, index: usize) -> Scale {
     scale.map_or_else(Scale::default, |scale| scale[index].0)
 }
@@ -315,22 +321,25 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         let mut totals = SweepTotals::default();
         let mut failure: Option<SweepFailure> = None;
         let asked = kernel.sets_external();
-        let eights = if asked || matches!(part.tangents, Tangents::Into(_)) {
-            ByEights::default()
-        } else {
+        let mut eights = ByEights::default();
+        if !asked && matches!(part.tangents, Tangents::None) {
             self.settings.simd.run(AskByEights {
                 law: self.law,
                 scale: self.constants.scale.map(|scale| &scale[first..]),
                 part,
-            })
-        };
+                answers: &mut eights,
+            });
+        }
         for row in 0..part.old.len() {
             let index = first + row;
             let volume = self.constants.volume[index];
+            let square = part.new.velocity[row].norm_squared();
+            totals.kinetic += 0.5 * self.constants.mass[index] * square;
+            totals.speed_squared = larger(totals.speed_squared, square);
             if eights.answered(row) {
                 let (stored, speed) = (eights.stored[row], eights.wave_speed[row]);
                 totals.stored += stored * volume;
-                totals.wave_speed = totals.wave_speed.max(speed);
+                totals.wave_speed = larger(totals.wave_speed, speed);
                 totals.viscous += self.add_viscosity(part, row, speed, false) * volume;
                 continue;
             }
@@ -423,6 +432,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
             dissipated: response.dissipated,
             viscous: self.add_viscosity(part, row, wave_speed, stretch.is_some()),
             wave_speed,
+            ..SweepTotals::default()
         })
     }
 
@@ -521,32 +531,34 @@ struct AskByEights<'a, 'p, M: Material, const D: usize> {
     /// Of the run's particles on.
     scale: Option<&'a [ParticleScale]>,
     part: &'a mut Part<'p, M, D>,
+    answers: &'a mut ByEights,
 }
 
 impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
-    type Output = ByEights;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self, _lanes: L) -> ByEights {
-        let mut answers = ByEights::default();
-        let count = self.part.old.len().min(Run::MAX);
-        for first in (0..count).step_by(EIGHT) {
+    fn run<L: Lanes>(self, _lanes: L) {
+        let answers = self.answers;
+        let Part { new, states, .. } = self.part;
+        let count = new.len().min(Run::MAX);
+        // All are brought into columns first: what has just been written number by number cannot be read by eights.
+        let mut points = [EightPoints::of(&Matrix3::identity()); Run::MAX / EIGHT];
+        for (row, f) in new.deformation_gradient.iter().enumerate().take(count) {
+            let points = &mut points[row / EIGHT];
+            points.set(row % EIGHT, f);
+            if let Some(scale) = self.scale {
+                points.stiffness[row % EIGHT] = scale[row].0.stiffness;
+                points.strength[row % EIGHT] = scale[row].0.strength;
+            }
+        }
+        for (first, points) in (0..count).step_by(EIGHT).zip(&points) {
             let rows = first..(first + EIGHT).min(count);
             let no_state = size_of::<M::State>() == 0;
-            if !no_state && rows.clone().any(|row| self.part.states.slot(row).is_some()) {
+            if !no_state && rows.clone().any(|row| states.slot(row).is_some()) {
                 continue;
             }
-            let Part { new, .. } = &mut *self.part;
-            // The last eight may want some: any particle stands in.
-            let mut points = EightPoints::of(&new.deformation_gradient[first]);
-            for row in rows.clone() {
-                points.set(row - first, &new.deformation_gradient[row]);
-                if let Some(scale) = self.scale {
-                    points.stiffness[row - first] = scale[row].0.stiffness;
-                    points.strength[row - first] = scale[row].0.strength;
-                }
-            }
-            let Some(responses) = self.law.update_eight(&points) else {
+            let Some(responses) = self.law.update_eight(points) else {
                 continue;
             };
             if !responses.is_finite() {
@@ -559,7 +571,6 @@ impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
             answers.stored[first..first + EIGHT].copy_from_slice(&responses.stored);
             answers.wave_speed[first..first + EIGHT].copy_from_slice(&responses.wave_speed);
         }
-        answers
     }
 }
 

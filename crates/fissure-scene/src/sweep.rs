@@ -206,6 +206,10 @@ pub struct SweepTotals {
     pub viscous: f64,
     /// Largest wave speed, m/s.
     pub wave_speed: f64,
+    /// Kinetic energy of the velocities in the trial, J.
+    pub kinetic: f64,
+    /// Square of the largest of those, m²/s².
+    pub speed_squared: f64,
 }
 
 impl SweepTotals {
@@ -216,6 +220,8 @@ impl SweepTotals {
             dissipated: self.dissipated + other.dissipated,
             viscous: self.viscous + other.viscous,
             wave_speed: self.wave_speed.max(other.wave_speed),
+            kinetic: self.kinetic + other.kinetic,
+            speed_squared: self.speed_squared.max(other.speed_squared),
         }
     }
 }

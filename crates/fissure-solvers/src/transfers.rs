@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::nodes::{Field, NodeSums, vector};
 use crate::placement::Placement;
-use crate::window::WindowSums;
+use crate::window::{CUBE, SQUARE, WindowSums};
 
 /// The discretisation of a scene: everything a transfer needs besides the particles' numbers.
 pub(crate) struct Transfers<'a, S, const D: usize> {
@@ -134,8 +134,8 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         give: impl Fn(&Body<D>, usize) -> Gift<D> + Sync,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.spread_window::<64, SLOPED>(scene, body_index, runs, sums, &give),
-            _ => self.spread_window::<512, SLOPED>(scene, body_index, runs, sums, &give),
+            2 => self.spread_window::<SQUARE, SLOPED>(scene, body_index, runs, sums, &give),
+            _ => self.spread_window::<CUBE, SLOPED>(scene, body_index, runs, sums, &give),
         })
     }
 
@@ -174,8 +174,8 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &mut NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.relay_window::<64, 65>(scene, body_index, runs, field, sums),
-            _ => self.relay_window::<512, 513>(scene, body_index, runs, field, sums),
+            2 => self.relay_window::<SQUARE, 65>(scene, body_index, runs, field, sums),
+            _ => self.relay_window::<CUBE, 513>(scene, body_index, runs, field, sums),
         })
     }
 
@@ -290,8 +290,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
                     if !stencils.fits(place) {
                         return Err(index);
                     }
-                    let gathered =
-                        stencils.gather::<L, false, false>(lanes, place, self.values);
+                    let gathered = stencils.gather::<L, false, false>(lanes, place, self.values);
                     let v = vector(&lanes.store4(gathered.value));
                     let gift = momentum_gift(particles.mass[index], &v, None);
                     stencils.scatter::<L, false>(lanes, place, &gift, self.window);

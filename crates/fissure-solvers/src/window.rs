@@ -1,6 +1,6 @@
 //! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
 
-use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, window_map};
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, sums_entry, window_map};
 
 use crate::nodes::NodeSums;
 
@@ -77,7 +77,7 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
     pub(crate) fn add(&self, window: &[[f64; SUMS]], sums: &NodeSums<D>) {
         self.rows(|entry, node, count| {
             for i in 0..count {
-                let numbers = &window[entry + i];
+                let numbers = &window[sums_entry(entry + i)];
                 // Zeros of both signs have no other bits.
                 if numbers.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 != 0 {
                     sums.add(node + i, numbers);
@@ -86,6 +86,11 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
         });
     }
 }
+
+/// Elements of a window's sums in the plane.
+pub(crate) const SQUARE: usize = sums_entry(64);
+/// The same in space.
+pub(crate) const CUBE: usize = sums_entry(512);
 
 /// Sums of a window, aligned so that a node's numbers lie in one cache line.
 #[repr(align(64))]

@@ -4,7 +4,7 @@ use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::axes::Numbers;
-use crate::separable::Line;
+use crate::separable::{Line, Profile};
 use crate::simd::EIGHT;
 use crate::{Grid, Separable, SeparableStencils, Shape};
 
@@ -28,7 +28,7 @@ impl<const D: usize> Shape<D> for Linear {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, corners)
+        Separable::new(grid, tile, x, self)
     }
 
     #[inline(always)]
@@ -39,7 +39,7 @@ impl<const D: usize> Shape<D> for Linear {
         x: &[SVector<f64, D>; EIGHT],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(grid, tile, x, corners)
+        SeparableStencils::new(grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -51,8 +51,10 @@ impl<const D: usize> Shape<D> for Linear {
     }
 }
 
-#[inline(always)]
-fn corners<const N: usize>(t: Numbers<N>) -> Line<2, N> {
-    let (zero, one) = (Numbers::splat(0.0), Numbers::splat(1.0));
-    (zero, [one - t, t], [-one, one])
+impl Profile<2> for Linear {
+    #[inline(always)]
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<2, N> {
+        let (zero, one) = (Numbers::splat(0.0), Numbers::splat(1.0));
+        (zero, [one - t, t], [-one, one])
+    }
 }

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 use super::settings::Transfer;
 use crate::nodes::{Field, MASSIVE, NodeSums, vector};
 use crate::transfers::{Transfers, add_stress, momentum_gift};
-use crate::window::WindowSums;
+use crate::window::{CUBE, SQUARE, WindowSums};
 
 /// What particles give to the nodes at the end of a pass over them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +59,8 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
         work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         match D {
-            2 => self.on_window_of::<64, 65>(window, work),
-            _ => self.on_window_of::<512, 513>(window, work),
+            2 => self.on_window_of::<SQUARE, 65>(window, work),
+            _ => self.on_window_of::<CUBE, 513>(window, work),
         }
     }
 }
@@ -114,40 +114,29 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
-        let pass = self.pass;
+        let (pass, simd) = (self.pass, self.pass.transfers.simd);
         let affine = pass.moves && pass.is_affine();
         let moments = affine && pass.affine_inverse.is_some();
-        let gradients = pass.strains || affine;
-        let gathered = match (gradients, moments) {
-            (_, true) => pass
-                .transfers
-                .simd
-                .run(GatherRun::<'_, '_, '_, '_, S, D, true, true> {
-                    tile: self,
-                    constants,
-                    old,
-                    new,
-                }),
-            (true, false) => {
-                pass.transfers
-                    .simd
-                    .run(GatherRun::<'_, '_, '_, '_, S, D, true, false> {
+        macro_rules! gather {
+            ($moves:literal, $strains:literal, $gradient:literal, $moment:literal) => {
+                simd.run(
+                    GatherRun::<'_, '_, '_, '_, S, D, $moves, $strains, $gradient, $moment> {
                         tile: self,
                         constants,
                         old,
                         new,
-                    })
-            }
-            (false, false) => {
-                pass.transfers
-                    .simd
-                    .run(GatherRun::<'_, '_, '_, '_, S, D, false, false> {
-                        tile: self,
-                        constants,
-                        old,
-                        new,
-                    })
-            }
+                    },
+                )
+            };
+        }
+        // What is known when this is compiled is not asked for each particle, and sums stay where they are made.
+        let gathered = match (pass.moves, pass.strains, affine, moments) {
+            (false, ..) => gather!(false, true, true, false),
+            (true, true, _, false) => gather!(true, true, true, false),
+            (true, true, _, true) => gather!(true, true, true, true),
+            (true, false, false, _) => gather!(true, false, false, false),
+            (true, false, true, false) => gather!(true, false, true, false),
+            (true, false, true, true) => gather!(true, false, false, true),
         };
         gathered.map_err(|row| KernelFailure {
             index: run.start as usize + row,
@@ -184,15 +173,34 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
     }
 }
 
-struct GatherRun<'t, 'a, 'c, 'n, S, const D: usize, const GRADIENT: bool, const MOMENT: bool> {
+/// Gathers and does what the pass is for: `MOVES` and `STRAINS` as in [`Pass`](super::phases::Pass), with sums by
+/// `GRADIENT` and `MOMENT`.
+struct GatherRun<
+    't,
+    'a,
+    'c,
+    'n,
+    S,
+    const D: usize,
+    const MOVES: bool,
+    const STRAINS: bool,
+    const GRADIENT: bool,
+    const MOMENT: bool,
+> {
     tile: &'t mut Tile<'a, S, D>,
     constants: &'c RunConstants<'c>,
     old: &'c MotionSlices<'c, D>,
     new: &'c mut MotionSlicesMut<'n, D>,
 }
 
-impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> SimdTask
-    for GatherRun<'_, '_, '_, '_, S, D, GRADIENT, MOMENT>
+impl<
+    S: Shape<D>,
+    const D: usize,
+    const MOVES: bool,
+    const STRAINS: bool,
+    const GRADIENT: bool,
+    const MOMENT: bool,
+> SimdTask for GatherRun<'_, '_, '_, '_, S, D, MOVES, STRAINS, GRADIENT, MOMENT>
 {
     /// The row of a particle that reaches off the grid or its tile's window.
     type Output = Result<(), usize>;
@@ -208,9 +216,9 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
         let pass = tile.pass;
         for first in (0..old.len()).step_by(EIGHT) {
             let (x, f) = (&old.position[first..], &old.deformation_gradient[first..]);
-            let stencils =
-                pass.transfers
-                    .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            let stencils = pass
+                .transfers
+                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
             let rows = first..(first + EIGHT).min(old.len());
             for row in rows.clone() {
                 let place = row - first;
@@ -218,19 +226,22 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
                     return Err(pass.first_outside(first..row, new).unwrap_or(row));
                 }
                 let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, place, tile.field);
-                if pass.moves {
+                if MOVES {
                     let carried = tile.carried.map(|carried| {
                         stencils
                             .gather::<L, false, false>(lanes, place, carried)
                             .value
                     });
                     pass.move_particle(lanes, row, &gathered, carried, old, new);
+                    if MOMENT || (GRADIENT && pass.is_affine()) {
+                        new.affine[row] = pass.affine_part::<L, MOMENT>(lanes, &gathered);
+                    }
                 }
-                if pass.strains {
+                if STRAINS {
                     let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
                     new.deformation_gradient[row] = pass.strained(lanes, &gathered, x, f);
                 }
-                if pass.giving == Giving::MomentumBack {
+                if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
                     let affine = if MOMENT || GRADIENT {
                         new.affine.get(row)
                     } else {
@@ -244,7 +255,7 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
                     }
                 }
             }
-            if pass.moves && let Some(row) = pass.first_outside(rows, new) {
+            if MOVES && let Some(row) = pass.first_outside(rows, new) {
                 return Err(row);
             }
         }
@@ -280,10 +291,13 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
         let forces = pass.giving != Giving::MomentumOn;
         for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
-            let (x, f) = (&place.position[first..], &place.deformation_gradient[first..]);
-            let stencils =
-                pass.transfers
-                    .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            let (x, f) = (
+                &place.position[first..],
+                &place.deformation_gradient[first..],
+            );
+            let stencils = pass
+                .transfers
+                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
             for row in first..(first + EIGHT).min(new.len()) {
                 if !stencils.fits(row - first) {
                     pass.strayed.store(true, Relaxed);
@@ -350,13 +364,21 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             (_, Some(filtered)) => filtered,
             (_, None) => end,
         };
-        if self.is_affine() {
-            let columns = match self.affine_inverse {
-                Some(inverse) => scaled(lanes, &gathered.moment, inverse),
-                None => gradient(lanes, gathered),
-            };
-            new.affine[row] = matrix(lanes, &columns);
-        }
+    }
+
+    /// By the moments on splines, else the velocity gradient.
+    #[inline(always)]
+    fn affine_part<L: Lanes, const MOMENT: bool>(
+        &self,
+        lanes: L,
+        gathered: &Gathered<L::Four, D>,
+    ) -> SMatrix<f64, D, D> {
+        let columns = if MOMENT {
+            scaled(lanes, &gathered.moment, self.affine_inverse.unwrap_or(0.0))
+        } else {
+            gradient(lanes, gathered)
+        };
+        matrix(lanes, &columns)
     }
 
     #[inline(always)]
@@ -402,10 +424,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
 /// Columns of the velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node
 /// without mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
 #[inline(always)]
-fn gradient<L: Lanes, const D: usize>(
-    lanes: L,
-    gathered: &Gathered<L::Four, D>,
-) -> [L::Four; D] {
+fn gradient<L: Lanes, const D: usize>(lanes: L, gathered: &Gathered<L::Four, D>) -> [L::Four; D] {
     let mut columns = gathered.gradient;
     for column in &mut columns {
         let massive = lanes.store4(*column)[MASSIVE];
@@ -416,11 +435,7 @@ fn gradient<L: Lanes, const D: usize>(
 
 /// Columns times a number.
 #[inline(always)]
-fn scaled<L: Lanes, const D: usize>(
-    lanes: L,
-    columns: &[L::Four; D],
-    factor: f64,
-) -> [L::Four; D] {
+fn scaled<L: Lanes, const D: usize>(lanes: L, columns: &[L::Four; D], factor: f64) -> [L::Four; D] {
     let mut scaled = *columns;
     for column in &mut scaled {
         *column = lanes.mul4(*column, lanes.splat4(factor));

@@ -31,6 +31,8 @@ pub(crate) struct Phases<'a, S, const D: usize> {
     /// Time at its start, s.
     pub time: f64,
     pub strayed: &'a AtomicBool,
+    /// kg.
+    pub mean_particle_mass: f64,
     /// Where bodies with a contact meet.
     pub meetings: &'a Meetings<D>,
 }
@@ -107,7 +109,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             loads: &loads,
             constraints: self.constraints,
             meetings: self.meetings,
-            lightest: self.settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
+            lightest: self.settings.mass_cutoff.max(NO_MASS) * self.mean_particle_mass,
             dt: self.dt,
         };
         let gains = matches!(
