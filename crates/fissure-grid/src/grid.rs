@@ -99,7 +99,12 @@ impl<const D: usize> Grid<D> {
     /// Whether a point is in the box, faces included; false for NaN.
     #[inline(always)]
     pub fn contains(&self, x: &SVector<f64, D>) -> bool {
-        (0..D).all(|axis| x[axis] >= self.origin[axis] && x[axis] <= self.top[axis])
+        // Without branches, so that many points are asked about at once.
+        let mut inside = true;
+        for axis in 0..D {
+            inside &= (x[axis] >= self.origin[axis]) & (x[axis] <= self.top[axis]);
+        }
+        inside
     }
 
     /// The cell that owns a point and the point's coordinate in it, [0, 1) in cells (1 on the grid's upper face). None if

@@ -124,8 +124,7 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
 /// Stencils that are products of one weight per axis, K nodes along each of D axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparableStencils<const D: usize, const K: usize> {
-    /// Along each axis; those that space has not are not used.
-    along: [Along<K>; 3],
+    along: [Along<K>; D],
     /// Window index of the lowest node.
     base: [f64; EIGHT],
     /// 1 for those that fit, else 0.
@@ -150,9 +149,10 @@ impl<const K: usize> Along<K> {
         moments: [[0.0; EIGHT]; K],
     };
 
-    /// The weights along an axis, and what they add to `base` and `fits`.
+    /// Sets the weights along an axis and adds to `base` and `fits`.
     #[inline(always)]
-    fn new<const D: usize>(
+    fn set<const D: usize>(
+        &mut self,
         grid: &Grid<D>,
         axis: usize,
         tile: i32,
@@ -160,7 +160,7 @@ impl<const K: usize> Along<K> {
         profile: &impl Profile<K>,
         base: &mut Numbers<EIGHT>,
         fits: &mut Numbers<EIGHT>,
-    ) -> Self {
+    ) {
         let mut position = Numbers::splat(0.0);
         for place in 0..EIGHT {
             position.0[place] = x[place][axis];
@@ -174,13 +174,11 @@ impl<const K: usize> Along<K> {
             * position.within(grid.origin()[axis], grid.max()[axis]);
         *base = *base + start * (1 << (3 * axis)) as f64;
         let arm = (first - local) * grid.spacing();
-        let mut along = Self::NOTHING;
         for k in 0..K {
-            along.values[k] = values[k].0;
-            along.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
-            along.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
+            self.values[k] = values[k].0;
+            self.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
+            self.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
         }
-        along
     }
 }
 
@@ -193,22 +191,19 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         x: &[SVector<f64, D>; EIGHT],
         profile: &impl Profile<K>,
     ) -> Self {
+        let mut along = [Along::NOTHING; D];
         let (mut base, mut fits) = (Numbers::splat(0.0), Numbers::splat(1.0));
         let (b, f) = (&mut base, &mut fits);
         // Written out, so that no axis is a number at run time.
-        let along_0 = Along::new(grid, 0, tile[0], x, profile, b, f);
-        let along_1 = if D > 1 {
-            Along::new(grid, 1, tile[1 % D], x, profile, b, f)
-        } else {
-            Along::NOTHING
-        };
-        let along_2 = if D > 2 {
-            Along::new(grid, 2, tile[2 % D], x, profile, b, f)
-        } else {
-            Along::NOTHING
-        };
+        along[0].set(grid, 0, tile[0], x, profile, b, f);
+        if D > 1 {
+            along[1 % D].set(grid, 1, tile[1 % D], x, profile, b, f);
+        }
+        if D > 2 {
+            along[2 % D].set(grid, 2, tile[2 % D], x, profile, b, f);
+        }
         Self {
-            along: [along_0, along_1, along_2],
+            along,
             base: base.0,
             fits: fits.0,
         }
@@ -217,7 +212,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     /// Nothing that fits.
     pub(crate) fn none() -> Self {
         Self {
-            along: [Along::NOTHING; 3],
+            along: [Along::NOTHING; D],
             base: [0.0; EIGHT],
             fits: [0.0; EIGHT],
         }
@@ -235,10 +230,11 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         if axis < D { K } else { 1 }
     }
 
-    /// Value, slope and value times arm of a node along an axis; zeros beyond the last node.
+    /// Value, slope and value times arm of a node along an axis; zeros beyond the last node, and along an axis that space
+    /// has not.
     #[inline(always)]
     fn factors(&self, place: usize, axis: usize, k: usize) -> (f64, f64, f64) {
-        if k >= K {
+        if k >= K || axis >= D {
             return (0.0, 0.0, 0.0);
         }
         (
@@ -394,7 +390,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                     add(lanes, along_0, 1.0, sum, &mut sums[node]);
                     continue;
                 }
-                let w1 = self.along[1].values[j][place];
+                let w1 = self.along[1 % D].values[j][place];
                 if D == 2 {
                     let mut sum = lanes.load(&sums[node]);
                     if E {
@@ -417,7 +413,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                     add(
                         lanes,
                         along_1,
-                        self.along[2].values[k][place],
+                        self.along[2 % D].values[k][place],
                         sum,
                         &mut sums[node],
                     );

@@ -1,7 +1,9 @@
 //! Gathering and scattering against the plain sum over visited nodes, for every shape, vector unit and dimension.
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
-use fissure_grid::{FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape};
+use fissure_grid::{
+    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape, sums_entry,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Numbers without a pattern, in [-1, 1].
@@ -58,7 +60,7 @@ fn plain<S: Stencil<D>, const D: usize>(
                 found.moment[a][c] += weight * arm[a] * v;
             }
         }
-        for (c, sum) in sums[window].iter_mut().enumerate() {
+        for (c, sum) in sums[sums_entry(window)].iter_mut().enumerate() {
             *sum += weight * gift.value[c];
             for a in 0..D {
                 let factor = if c < FIELD {
@@ -108,7 +110,7 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
             let Some(unit) = Simd::named(name) else {
                 continue;
             };
-            let mut exact_sums = vec![[0.5; SUMS]; window];
+            let mut exact_sums = vec![[0.5; SUMS]; sums_entry(window)];
             let mut sums = exact_sums.clone();
             let exact = plain(&stencil, &field, &gift, &mut exact_sums);
             let found = unit.run(Both {
