@@ -66,14 +66,12 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
 pub(crate) fn external_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    masses: &NodeSums<D>,
+    masses: &[f64],
     time: f64,
 ) -> Result<Vec<SVector<f64, D>>, (usize, usize)> {
     let loads = Loads::new(transfers, scene, time)?;
-    let nodes = 0..masses.len();
-    Ok(nodes
-        .map(|node| loads.at(node, masses.mass(node)))
-        .collect())
+    let nodes = masses.iter().enumerate();
+    Ok(nodes.map(|(node, &mass)| loads.at(node, mass)).collect())
 }
 
 /// When internal forces are wanted.

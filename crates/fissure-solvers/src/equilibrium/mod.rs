@@ -3,13 +3,16 @@
 //!
 //! `links` lists which nodes a particle reaches at the start of the step, `kernel` strains the
 //! particles, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
-//! conditions hold, `system` solves for a correction, `pace` chooses step lengths.
+//! conditions hold, `system` solves for a correction, `pace` chooses step lengths, `failure` and
+//! `statistics` say how an attempt ended.
 
 pub(crate) mod balance;
 pub(crate) mod choice;
+pub(crate) mod failure;
 pub(crate) mod freedoms;
 pub(crate) mod kernel;
 pub(crate) mod links;
 pub(crate) mod pace;
+pub(crate) mod statistics;
 pub(crate) mod stiffness;
 pub(crate) mod system;

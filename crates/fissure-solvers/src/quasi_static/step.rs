@@ -2,18 +2,23 @@
 
 use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_materials::Tangent;
-use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
+use fissure_scene::{
+    ConditionKind, NewtonStop, Report, Scene, Solution, SolveError, Solver, StepControl, StepEnergy,
+};
 use nalgebra::SVector;
 
-use super::settings::QuasiStaticSettings;
+use super::newton::balanced;
+use super::path::{Goal, follow};
+use super::settings::{Control, QuasiStaticSettings};
+use super::trial::{Equilibrium, Start, Trial};
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
-use crate::equilibrium::balance::{
-    At, external_forces, forces, internal_forces, momenta, reactions, strain, unbalanced, work,
-};
+use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta, strain};
+use crate::equilibrium::failure::Failure;
 use crate::equilibrium::pace::Pace;
-use crate::equilibrium::system::{Jacobian, System};
+use crate::equilibrium::statistics::StepStatistics;
+use crate::equilibrium::system::System;
 use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::Placement;
@@ -35,36 +40,22 @@ pub struct QuasiStatic<S, const D: usize> {
     force_scale: f64,
     /// Nodal displacements of the last step were mapped to the particles' velocities.
     has_stepped: bool,
+    /// Change of load time over the length of the last step.
+    load_rate: f64,
+    /// Arc length of a step of full length, m; 0 before the first step.
+    arc_length: f64,
+    /// What the last step held fixed.
+    last_control: StepControl,
+    dissipated_before: bool,
     /// Whether the memory was recalled from a checkpoint and the scene restored after.
     recalled: bool,
+    statistics: StepStatistics,
 }
 
-/// Added to the diagonal of the system, which is scaled to 1. Motions that nothing resists (a
-/// fragment that has broken off, a bar on rollers) then stay where they are instead of making the
-/// matrix singular. The residual is not touched, so equilibrium is exact all the same.
-const LEAST_DAMPING: f64 = 1e-10;
-/// What that may grow to in a step whose residual rises.
-const MOST_DAMPING: f64 = 1e-1;
-
-/// Why an attempt at a step did not end in equilibrium.
-enum Failed {
-    /// Residual over its scale after the last iteration.
-    Residual(f64),
-    /// A law or the grid refused; a shorter step may do.
-    Refused(SolveError),
-    /// No solution of the linear system.
-    Singular,
-}
-
-/// A step in equilibrium, not yet committed.
-struct Equilibrium<const D: usize> {
-    totals: SweepTotals,
-    reactions: Vec<SVector<f64, D>>,
-    iterations: usize,
-    load_work: f64,
-    internal_work: f64,
-    force_scale: f64,
-}
+/// Energy that a prescribed step may dissipate, over that of a controlled one, before control is taken.
+const MOST: f64 = 1.5;
+/// The same before control is given back.
+const LEAST: f64 = 0.01;
 
 impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     /// A solver with nothing moved yet.
@@ -88,8 +79,18 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             },
             force_scale: 0.0,
             has_stepped: false,
+            load_rate: 1.0,
+            arc_length: 0.0,
+            last_control: StepControl::Prescribed,
+            dissipated_before: false,
             recalled: false,
+            statistics: StepStatistics::default(),
         })
+    }
+
+    /// What the last attempt at a step took, and why it ended.
+    pub fn statistics(&self) -> &StepStatistics {
+        &self.statistics
     }
 
     /// Negative pivots of the last tangent factorised, its damping included: 0 on a stable branch; each
@@ -144,6 +145,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             if !std::mem::take(&mut self.recalled) {
                 refine(scene, &self.grid);
                 (self.force_scale, self.has_stepped) = (0.0, false);
+                self.arc_length = 0.0;
+                self.last_control = StepControl::Prescribed;
+                self.dissipated_before = false;
                 self.pace.next = self.settings.step;
             }
             check_columns(scene)?;
@@ -157,136 +161,169 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.placement.update(&self.grid, scene)
     }
 
-    /// Tries a step of length `dt`; the trial motion of the scene holds its end.
-    fn attempt(
-        &mut self,
-        scene: &mut Scene<D>,
+    /// A trial of length `dt` that goes on as the last step did, or, if not `predict`, stands still.
+    fn trial<'a>(
+        &'a mut self,
+        scene: &'a mut Scene<D>,
         dt: f64,
         predict: bool,
-    ) -> Result<Equilibrium<D>, Failed> {
-        let Self {
-            grid,
-            shape,
-            settings,
-            placement,
-            constraints,
-            system,
-            internal,
-            displacement,
-            tangents,
-            force_scale,
-            ..
-        } = self;
-        let end = scene.time() + dt;
+    ) -> Result<Trial<'a, S, D>, Failure> {
         let transfers = Transfers {
-            grid,
-            shape,
-            placement,
+            grid: &self.grid,
+            shape: &self.shape,
+            placement: &self.placement,
             kinematics: scene.kinematics(),
             simd: Simd::widest(),
         };
         let off_grid = |scene: &Scene<D>, (body, index): (usize, usize)| {
-            Failed::Refused(outside(scene, body, index))
+            Failure::from(outside(scene, body, index))
         };
-        constraints
-            .collect(scene, grid, shape, placement, end)
-            .map_err(Failed::Refused)?;
-        system
-            .find(&transfers, scene, constraints)
+        let load_time = scene.load_time();
+        let (grid, shape) = (&self.grid, &self.shape);
+        self.constraints
+            .collect(scene, grid, shape, &self.placement, load_time)?;
+        self.system
+            .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;
-        // The sums hold the internal forces afterwards.
-        momenta(&transfers, scene, internal).map_err(|failed| off_grid(scene, failed))?;
-        let external_at = |time| {
-            external_forces(&transfers, scene, internal, time)
-                .map_err(|failed| off_grid(scene, failed))
-        };
-        let before_loads = external_at(scene.time())?;
-        let external = external_at(end)?;
-
-        displacement.clear();
-        displacement.extend((0..internal.len()).map(|node| match predict {
-            true => internal.velocity(node) * dt,
+        let sums = &mut self.internal;
+        momenta(&transfers, scene, sums).map_err(|failed| off_grid(scene, failed))?;
+        let nodes = 0..sums.len();
+        let masses: Vec<f64> = nodes.clone().map(|node| sums.mass(node)).collect();
+        self.displacement.clear();
+        self.displacement
+            .extend(nodes.clone().map(|node| match predict {
+                true => sums.velocity(node) * dt,
+                false => SVector::zeros(),
+            }));
+        let stepped = self.has_stepped;
+        let momenta = nodes.map(|node| match stepped {
+            true => sums.momentum(node),
             false => SVector::zeros(),
-        }));
-        internal_forces(&transfers, scene, internal, At::Start)
+        });
+        let momenta = momenta.collect();
+        let external = external_forces(&transfers, scene, &masses, load_time)
             .map_err(|failed| off_grid(scene, failed))?;
-        let before_stresses = forces(internal);
-        let mut held = vec![SVector::zeros(); displacement.len()];
-        for node in &constraints.held {
-            let present = displacement[node.node] / dt;
-            held[node.node] = (node.apply(&present) - present) * dt;
-        }
+        internal_forces(&transfers, scene, sums, At::Start)
+            .map_err(|failed| off_grid(scene, failed))?;
+        self.tangents.resize(scene.bodies().len(), Vec::new());
+        self.statistics.residuals.clear();
+        Ok(Trial {
+            start: Start {
+                load_time,
+                mass: masses.iter().sum(),
+                masses,
+                momenta,
+                external,
+                internal: forces(sums),
+            },
+            scene,
+            transfers,
+            settings: &self.settings,
+            constraints: &mut self.constraints,
+            system: &mut self.system,
+            internal: &mut self.internal,
+            tangents: &mut self.tangents,
+            statistics: &mut self.statistics,
+            displacement: &mut self.displacement,
+            load_step: if predict { self.load_rate * dt } else { 0.0 },
+            dt,
+            dissipated_before: self.dissipated_before,
+            force_scale: self.force_scale,
+        })
+    }
 
-        tangents.resize(scene.bodies().len(), Vec::new());
-        let mut before: Vec<SVector<f64, D>> = Vec::new();
-        let (mut error, mut last) = (f64::INFINITY, f64::INFINITY);
-        let mut damping = LEAST_DAMPING;
-        for iteration in 0..=settings.max_iterations {
-            let totals = strain(
-                scene,
-                &transfers,
-                displacement,
-                settings.band,
-                dt,
-                Some(tangents),
-            )
-            .map_err(Failed::Refused)?;
-            internal_forces(&transfers, scene, internal, At::End)
-                .map_err(|failed| off_grid(scene, failed))?;
-            let unbalanced = unbalanced(&system.links, &system.freedoms, internal, &external);
-            // Of this state and of the steps accepted before, not of iterates that were left.
-            let scale = force_scale.max(unbalanced.scale);
-            error = unbalanced.residual / if scale > 0.0 { scale } else { 1.0 };
-            if !scale.is_finite() {
-                error = f64::INFINITY;
-            }
-            let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
-            if placed && error <= settings.tolerance {
-                return Ok(Equilibrium {
-                    totals,
-                    reactions: reactions(scene, constraints, internal, &external),
-                    iterations: iteration,
-                    load_work: work(&before_loads, &external, displacement),
-                    internal_work: -work(&before_stresses, &forces(internal), displacement),
-                    force_scale: scale,
-                });
-            }
-            if iteration == settings.max_iterations || !error.is_finite() {
-                break;
-            }
-            // Where a crack is open the tangent is next to nothing, and a full step runs far into
-            // the other side: go back and stiffen the system, as Levenberg and Marquardt do.
-            if error > last && damping < MOST_DAMPING {
-                damping = (damping * 1e2).clamp(1e-6, MOST_DAMPING);
-                displacement.clone_from(&before);
-                continue;
-            }
-            if error < last {
-                damping = (damping * 0.1).max(LEAST_DAMPING);
-            }
-            last = if placed { error } else { f64::INFINITY };
-            before.clone_from(displacement);
-            let force = unbalanced.force;
-            let jacobian = Jacobian::STATIC;
-            let correction = system
-                .correct(scene, &transfers, tangents, jacobian, force, &held, damping)
-                .map_err(|_| Failed::Singular)?;
-            system.links.add(&correction, 1.0, displacement);
-            for (u, change) in displacement.iter_mut().zip(&mut held) {
-                *u += *change;
-                *change = SVector::zeros();
+    /// A step of length `dt` whose end has the loads and motions of its end in time.
+    fn prescribed(
+        &mut self,
+        scene: &mut Scene<D>,
+        dt: f64,
+        cuts: usize,
+    ) -> Result<Equilibrium<D>, Failure> {
+        // The extrapolated start may be what fails.
+        if self.has_stepped && cuts == 0 {
+            let mut trial = self.trial(scene, dt, true)?;
+            trial.load_step = dt;
+            if let Ok(equilibrium) = balanced(&mut trial) {
+                return Ok(equilibrium);
             }
         }
-        Err(Failed::Residual(error))
+        let mut trial = self.trial(scene, dt, false)?;
+        trial.load_step = dt;
+        balanced(&mut trial)
+    }
+
+    /// A step of length `dt` under the control of the settings, and what it held fixed; `left` is the time to go.
+    fn attempt(
+        &mut self,
+        scene: &mut Scene<D>,
+        (dt, left): (f64, f64),
+        cuts: usize,
+    ) -> Result<(Equilibrium<D>, StepControl), Failure> {
+        let share = dt / self.settings.step;
+        match self.settings.control {
+            Control::ArcLength if self.arc_length > 0.0 => {
+                let goal = Goal::Length(share * self.arc_length);
+                let followed = follow(&mut self.trial(scene, dt, true)?, goal)?;
+                Ok((followed, StepControl::ArcLength))
+            }
+            Control::Prescribed | Control::ArcLength => {
+                let prescribed = self.prescribed(scene, dt, cuts)?;
+                Ok((prescribed, StepControl::Prescribed))
+            }
+            Control::Dissipation { energy } => self.dissipating(scene, (dt, left), cuts, energy),
+        }
+    }
+
+    /// A step that dissipates its share of `energy`, or a prescribed one that dissipates little enough. What the
+    /// last step was is tried first.
+    fn dissipating(
+        &mut self,
+        scene: &mut Scene<D>,
+        (dt, left): (f64, f64),
+        cuts: usize,
+        energy: f64,
+    ) -> Result<(Equilibrium<D>, StepControl), Failure> {
+        let share = energy * dt / self.settings.step;
+        let controlled = self.last_control == StepControl::Dissipation;
+        let most = energy * if controlled { LEAST } else { MOST };
+        let mut failed = None;
+        for turn in 0..2 {
+            let found = if controlled == (turn == 0) {
+                let goal = Goal::Energy(share);
+                let followed = self.trial(scene, dt, self.has_stepped);
+                let followed = followed.and_then(|mut trial| follow(&mut trial, goal));
+                followed.map(|found| (found, StepControl::Dissipation))
+            } else {
+                // Beyond the end of a branch, which short steps have approached, a long one gets.
+                let beyond = controlled && cuts == 0;
+                let length = if beyond {
+                    left.min(self.settings.step)
+                } else {
+                    dt
+                };
+                let prescribed = self.prescribed(scene, length, cuts);
+                let little = |found: &Equilibrium<D>| found.totals.dissipated <= most;
+                match prescribed {
+                    Ok(found) if little(&found) => Ok((found, StepControl::Prescribed)),
+                    Ok(_) => Err(Failure::at(NewtonStop::Control, 0.0)),
+                    Err(failed) => Err(failed),
+                }
+            };
+            match found {
+                Ok(found) => return Ok(found),
+                Err(failure) => failed = failed.or(Some(failure)),
+            }
+        }
+        Err(failed.unwrap_or_else(|| Failure::at(NewtonStop::Control, f64::NAN)))
     }
 
     /// Makes the trial the present and books the step.
     fn accept(
         &mut self,
         scene: &mut Scene<D>,
-        dt: f64,
-        equilibrium: Equilibrium<D>,
+        (equilibrium, control): (Equilibrium<D>, StepControl),
     ) -> Result<Report<D>, SolveError> {
+        let dt = equilibrium.dt;
         let Self {
             grid,
             placement,
@@ -304,31 +341,47 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.placement.note_moves(&self.grid, scene);
         self.has_stepped = true;
         self.force_scale = equilibrium.force_scale;
-        let end = scene.time() + dt;
+        let load_step = equilibrium.load_step;
+        self.load_rate = load_step / dt;
+        self.last_control = control;
+        self.dissipated_before = equilibrium.totals.dissipated > 0.0;
+        if self.arc_length == 0.0 {
+            self.arc_length = equilibrium.length * self.settings.step / dt;
+        }
+        let load_time = scene.load_time() + load_step;
         let mut external = equilibrium.load_work;
         for (condition, now) in scene.conditions().iter().zip(&equilibrium.reactions) {
             if let ConditionKind::Velocity { hold, speed } = condition.kind() {
                 let before = scene
                     .reaction(condition.name())
                     .unwrap_or_else(SVector::zeros);
-                let way = hold.direction() * (speed.at(end) * dt);
+                let way = hold.direction() * (speed.at(load_time) * load_step);
                 external += (before + now).dot(&way) * 0.5;
             }
         }
         let report = Report {
             step: scene.step() + 1,
-            time: end,
+            time: scene.time() + dt,
             dt,
             energy: StepEnergy {
                 external,
                 internal: equilibrium.internal_work,
                 stored: equilibrium.totals.stored,
                 dissipated: equilibrium.totals.dissipated,
+                stabilisation: equilibrium.stabilising_work,
                 ..StepEnergy::default()
             },
             reactions: equilibrium.reactions,
             contact_forces: Vec::new(),
             iterations: equilibrium.iterations,
+            solution: Some(Solution {
+                load_time,
+                load_step,
+                control,
+                negative_pivots: Some(self.statistics.negative_pivots),
+                cuts: self.statistics.cuts,
+                stop: NewtonStop::Converged,
+            }),
         };
         scene.record(&report);
         self.placement.accept(scene);
@@ -342,49 +395,64 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
         self.prepare(scene)?;
         let left = until - scene.time();
         let mut dt = self.pace.length(left);
-        let (mut cuts, mut predict) = (0, self.has_stepped);
+        let mut cuts = 0;
         loop {
-            let failed = match self.attempt(scene, dt, predict) {
-                Ok(equilibrium) => {
-                    self.pace.accepted(dt, cuts, self.settings.step);
-                    return self.accept(scene, dt, equilibrium);
-                }
-                Err(failed) => failed,
+            self.statistics = StepStatistics {
+                cuts,
+                ..StepStatistics::default()
             };
-            if predict {
-                // The extrapolated start may be what failed.
-                predict = false;
-                continue;
+            match self.attempt(scene, (dt, left), cuts) {
+                Ok(found) => {
+                    self.statistics.stop = Some(NewtonStop::Converged);
+                    self.pace.accepted(found.0.dt, cuts, self.settings.step);
+                    return self.accept(scene, found);
+                }
+                Err(failed) => {
+                    self.statistics.stop = Some(failed.stop);
+                    if cuts == self.settings.max_cuts {
+                        return Err(failed.into_error(scene, cuts, self.settings.tolerance));
+                    }
+                }
             }
             cuts += 1;
-            if cuts > self.settings.max_cuts {
-                let (step, time) = (scene.step() + 1, scene.time());
-                return Err(match failed {
-                    Failed::Refused(error) => error,
-                    Failed::Singular => SolveError::Singular { step, time },
-                    Failed::Residual(residual) => SolveError::NoConvergence {
-                        step,
-                        time,
-                        cuts: cuts - 1,
-                        residual,
-                        tolerance: self.settings.tolerance,
-                    },
-                });
-            }
             dt *= 0.5;
         }
     }
 
     fn memory(&self) -> Vec<f64> {
-        let stepped = f64::from(u8::from(self.has_stepped));
-        vec![self.pace.next, self.force_scale, stepped]
+        let flag = |flag: bool| f64::from(u8::from(flag));
+        vec![
+            self.pace.next,
+            self.force_scale,
+            flag(self.has_stepped),
+            self.load_rate,
+            self.arc_length,
+            flag(self.last_control == StepControl::Dissipation),
+            flag(self.dissipated_before),
+        ]
     }
 
     fn recall(&mut self, memory: &[f64]) {
-        if let [next_step, force_scale, stepped] = *memory {
+        if let [
+            next_step,
+            force_scale,
+            stepped,
+            load_rate,
+            arc_length,
+            dissipating,
+            dissipated,
+        ] = *memory
+        {
             self.pace.next = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;
+            self.load_rate = load_rate;
+            self.arc_length = arc_length;
+            self.last_control = match dissipating {
+                0.0 => StepControl::Prescribed,
+                _ => StepControl::Dissipation,
+            };
+            self.dissipated_before = dissipated != 0.0;
             self.recalled = true;
         }
     }
