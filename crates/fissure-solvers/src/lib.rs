@@ -39,4 +39,4 @@ pub use fissure_scene::NewtonStop;
 pub use implicit::{Implicit, ImplicitSettings, Integration};
 pub use placement::Placement;
 #[cfg(feature = "implicit")]
-pub use quasi_static::{Control, QuasiStatic, QuasiStaticSettings};
+pub use quasi_static::{LoadControl, QuasiStatic, QuasiStaticSettings, VolumeChange};

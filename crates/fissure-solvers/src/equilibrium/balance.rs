@@ -5,6 +5,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
+use super::averages::Averages;
 use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
 use super::links::Links;
@@ -16,13 +17,15 @@ use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
-/// Trial motion and stresses for nodal displacements, and tangents where there is room for them.
+/// Trial motion and stresses for nodal displacements, with averaged volume changes or without, and tangents
+/// where there is room for them.
 pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
     band: BandSource,
     dt: f64,
+    averages: Option<&Averages<D>>,
     mut tangents: Option<&mut [Vec<Tangent>]>,
 ) -> Result<SweepTotals, SolveError> {
     let (step, time) = (scene.step() + 1, scene.time());
@@ -31,6 +34,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
         let kernel = DisplacementKernel {
             transfers,
             displacement,
+            factors: averages.map(|averages| averages.factors[index].as_slice()),
             half_edges: *body.half_edges(),
             dt,
         };

@@ -239,7 +239,15 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         );
         let tangents = if differences { None } else { tangents };
         let (band, dt) = (self.settings.band, self.dt);
-        let totals = strain(scene, &self.transfers, displacement, band, dt, tangents)?;
+        let totals = strain(
+            scene,
+            &self.transfers,
+            displacement,
+            band,
+            dt,
+            None,
+            tangents,
+        )?;
         internal_forces(&self.transfers, scene, sums, At::End)
             .map_err(|(body, index)| outside(scene, body, index))?;
         let (start, end) = self.scheme.force_shares();

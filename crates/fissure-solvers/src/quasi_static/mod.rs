@@ -17,5 +17,5 @@ mod settings;
 mod step;
 mod trial;
 
-pub use settings::{Control, QuasiStaticSettings};
+pub use settings::{LoadControl, QuasiStaticSettings, VolumeChange};
 pub use step::QuasiStatic;

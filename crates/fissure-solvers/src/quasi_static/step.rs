@@ -3,13 +3,14 @@
 use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_materials::Tangent;
 use fissure_scene::{
-    ConditionKind, NewtonStop, Report, Scene, Solution, SolveError, Solver, StepControl, StepEnergy,
+    ConditionKind, Kinematics, NewtonStop, Report, Scene, Solution, SolveError, Solver,
+    StepControl, StepEnergy,
 };
 use nalgebra::SVector;
 
 use super::newton::balanced;
 use super::path::{Goal, follow};
-use super::settings::{Control, QuasiStaticSettings};
+use super::settings::{LoadControl, QuasiStaticSettings, VolumeChange};
 use super::trial::{Equilibrium, Start, Trial};
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
@@ -124,12 +125,17 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let still = vec![SVector::zeros(); transfers.placement.node_count()];
         self.tangents.resize(scene.bodies().len(), Vec::new());
         let (band, dt) = (self.settings.band, self.settings.step);
+        let links = &mut self.system.links;
+        if self.settings.volume == VolumeChange::Patch {
+            links.average(scene, &still);
+        }
         strain(
             scene,
             &transfers,
             &still,
             band,
             dt,
+            links.averages.as_ref(),
             Some(&mut self.tangents),
         )?;
         self.system.assemble(scene, &self.tangents);
@@ -154,6 +160,18 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             if !scene.contacts().is_empty() {
                 return Err(SolveError::Unsupported {
                     what: "contact between bodies in a quasi-static step",
+                });
+            }
+            let averages = self.settings.volume == VolumeChange::Patch;
+            let kinematics = scene.kinematics();
+            if averages
+                && !matches!(
+                    kinematics,
+                    Kinematics::PlaneStrain { .. } | Kinematics::Solid
+                )
+            {
+                return Err(SolveError::Unsupported {
+                    what: "averaging volume changes other than in plane strain and in space",
                 });
             }
             self.settings.band.check(&self.shape, &self.grid, scene)?;
@@ -203,8 +221,15 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let momenta = momenta.collect();
         let external = external_forces(&transfers, scene, &masses, load_time)
             .map_err(|failed| off_grid(scene, failed))?;
-        internal_forces(&transfers, scene, sums, At::Start)
-            .map_err(|failed| off_grid(scene, failed))?;
+        let links = &mut self.system.links;
+        if self.settings.volume == VolumeChange::Patch {
+            let still = vec![SVector::zeros(); sums.len()];
+            links.average(scene, &still);
+            links.averaged_forces(scene, sums, At::Start);
+        } else {
+            internal_forces(&transfers, scene, sums, At::Start)
+                .map_err(|failed| off_grid(scene, failed))?;
+        }
         self.tangents.resize(scene.bodies().len(), Vec::new());
         self.statistics.residuals.clear();
         Ok(Trial {
@@ -261,16 +286,18 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     ) -> Result<(Equilibrium<D>, StepControl), Failure> {
         let share = dt / self.settings.step;
         match self.settings.control {
-            Control::ArcLength if self.arc_length > 0.0 => {
+            LoadControl::ArcLength if self.arc_length > 0.0 => {
                 let goal = Goal::Length(share * self.arc_length);
                 let followed = follow(&mut self.trial(scene, dt, true)?, goal)?;
                 Ok((followed, StepControl::ArcLength))
             }
-            Control::Prescribed | Control::ArcLength => {
+            LoadControl::Prescribed | LoadControl::ArcLength => {
                 let prescribed = self.prescribed(scene, dt, cuts)?;
                 Ok((prescribed, StepControl::Prescribed))
             }
-            Control::Dissipation { energy } => self.dissipating(scene, (dt, left), cuts, energy),
+            LoadControl::Dissipation { energy } => {
+                self.dissipating(scene, (dt, left), cuts, energy)
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, NewtonStop, Scene, SweepTotals};
 use nalgebra::SVector;
 
-use super::settings::QuasiStaticSettings;
+use super::settings::{QuasiStaticSettings, VolumeChange};
 use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::equilibrium::balance::{
@@ -177,9 +177,16 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
     /// Strains the particles; with tangents if wanted.
     pub(super) fn strain(&mut self, with_tangents: bool) -> Result<SweepTotals, Failure> {
         let tangents = with_tangents.then_some(self.tangents.as_mut_slice());
+        let links = &mut self.system.links;
+        if self.settings.volume == VolumeChange::Patch {
+            links.average(self.scene, self.displacement);
+        }
+        let averages = links.averages.as_ref();
         let (band, dt) = (self.settings.band, self.dt);
         let (transfers, u) = (&self.transfers, self.displacement.as_slice());
-        Ok(strain(self.scene, transfers, u, band, dt, tangents)?)
+        Ok(strain(
+            self.scene, transfers, u, band, dt, averages, tangents,
+        )?)
     }
 
     /// Strains the particles and sums what is left of the forces.
@@ -189,8 +196,13 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
         with_tangents: bool,
     ) -> Result<Balance, Failure> {
         let totals = self.strain(with_tangents)?;
-        internal_forces(&self.transfers, self.scene, self.internal, At::End)
-            .map_err(|(body, index)| outside(self.scene, body, index))?;
+        if self.settings.volume == VolumeChange::Patch {
+            let links = &self.system.links;
+            links.averaged_forces(self.scene, self.internal, At::End);
+        } else {
+            internal_forces(&self.transfers, self.scene, self.internal, At::End)
+                .map_err(|(body, index)| outside(self.scene, body, index))?;
+        }
         let (links, freedoms) = (&self.system.links, &self.system.freedoms);
         let outer = self.outer(loads);
         let found = unbalanced(links, freedoms, self.internal, &outer);

@@ -4,7 +4,7 @@ use fissure_grid::{Grid, shape};
 use fissure_materials::{Decohesive, Isotropic, Normal, Scale, softening};
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{Hold, NewtonStop, Plane, Scene, SolveError, Solver, StepControl, Velocity};
-use fissure_solvers::{Control, QuasiStatic, QuasiStaticSettings};
+use fissure_solvers::{LoadControl, QuasiStatic, QuasiStaticSettings};
 use nalgebra::{SVector, Vector3, vector};
 
 const SPACING: f64 = 0.02;
@@ -70,7 +70,7 @@ fn peak(length: f64) -> f64 {
     STRENGTH * length / MODULUS
 }
 
-fn solver(length: f64, control: Control) -> QuasiStatic<shape::Linear, 2> {
+fn solver(length: f64, control: LoadControl) -> QuasiStatic<shape::Linear, 2> {
     let settings = QuasiStaticSettings {
         step: peak(length) / 10.0,
         control,
@@ -79,9 +79,9 @@ fn solver(length: f64, control: Control) -> QuasiStatic<shape::Linear, 2> {
     QuasiStatic::new(grid(length), shape::Linear, settings).unwrap()
 }
 
-const CONTROLS: [Control; 2] = [
-    Control::ArcLength,
-    Control::Dissipation {
+const CONTROLS: [LoadControl; 2] = [
+    LoadControl::ArcLength,
+    LoadControl::Dissipation {
         energy: SECTION * TOUGHNESS / 20.0,
     },
 ];
@@ -170,7 +170,7 @@ fn a_load_is_followed_past_its_limit() {
         .unwrap();
     let settings = QuasiStaticSettings {
         step: 0.1,
-        control: Control::ArcLength,
+        control: LoadControl::ArcLength,
         ..QuasiStaticSettings::default()
     };
     let mut solver = QuasiStatic::new(grid(length), shape::Linear, settings).unwrap();
@@ -302,7 +302,7 @@ fn settings_out_of_range_are_refused() {
     };
     for energy in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(refused(QuasiStaticSettings {
-            control: Control::Dissipation { energy },
+            control: LoadControl::Dissipation { energy },
             ..QuasiStaticSettings::default()
         }));
     }
