@@ -2,7 +2,7 @@
 //! incompressibility, long steps; and how iterations grow with the number of unknowns.
 //!
 //! A square of 1 m, its left half soft, its right half stiffer (and heavier) by a ratio, rests on a wall and a
-//! floor and is drawn at the right, from rest. Steps are so many times the time that the fastest wave needs
+//! floor and is drawn at the right, from rest, by a load that rises evenly over the run. Steps are so many times the time that the fastest wave needs
 //! across a cell. Errors are those of the particles' displacements against a factorisation with a
 //! hundredth of the tolerance.
 
@@ -27,8 +27,6 @@ const NAME: &str = "stiff";
 /// Young's modulus, Pa, and density, kg/m³, of the soft half.
 const YOUNG: f64 = 1e6;
 const DENSITY: f64 = 1000.0;
-/// Strain of the soft half under the load at rest, about.
-const STRAIN: f64 = 1e-5;
 /// How much more accurate the reference is.
 const FINER: f64 = 100.0;
 /// Refinements from which a growth is fitted.
@@ -85,6 +83,13 @@ impl Study for Stiff {
                 "1",
                 100.0,
                 ratio(),
+            ),
+            Parameter::number(
+                "strain",
+                "of the soft half under the load at rest, about",
+                "1",
+                1e-3,
+                Permitted::numbers(1e-9..=1e-1),
             ),
             Parameter::count("cells", "along a side", 16, Permitted::counts(2..=1024)),
             Parameter::count("steps", "of the run", 3, Permitted::counts(1..=1000)),
@@ -236,7 +241,11 @@ fn linear(case: &Parameters) -> Result<LinearSolver, StudyError> {
     })
 }
 
-fn scene(case: &Parameters) -> Result<Scene<2>, Box<dyn std::error::Error + Send + Sync>> {
+/// The square; the load rises evenly to its full size at `end`, s.
+fn scene(
+    case: &Parameters,
+    end: impl Fn(&Scene<2>) -> f64,
+) -> Result<Scene<2>, Box<dyn std::error::Error + Send + Sync>> {
     let h = 1.0 / case.count("cells")? as f64;
     let spacing = Spacing(0.5 * h);
     let law = |ratio: f64, mass_ratio: f64| -> Result<Isotropic, StudyError> {
@@ -247,7 +256,7 @@ fn scene(case: &Parameters) -> Result<Scene<2>, Box<dyn std::error::Error + Send
         })
     };
     let stiff = law(case.number("ratio")?, case.number("mass_ratio")?)?;
-    let load = YOUNG * STRAIN;
+    let load = YOUNG * case.number("strain")?;
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
     scene
         .fill(
@@ -261,7 +270,9 @@ fn scene(case: &Parameters) -> Result<Scene<2>, Box<dyn std::error::Error + Send
             stiff,
             &Block::new([0.5, 0.0], [1.0, 1.0]),
             &spacing,
-        )?
+        )?;
+    let end = end(&scene);
+    scene
         .rigid(
             "wall",
             &Block::new([-h, 0.0], [0.0, 1.0]),
@@ -280,7 +291,7 @@ fn scene(case: &Parameters) -> Result<Scene<2>, Box<dyn std::error::Error + Send
             "load",
             "stiff",
             move |x| x.x > 1.0 - 0.5 * h,
-            move |_| Vector2::new(load, 0.3 * load),
+            move |t| Vector2::new(load, 0.3 * load) * (t / end),
         )?;
     Ok(scene)
 }
@@ -297,14 +308,18 @@ struct Solved {
 }
 
 fn solve(case: &Parameters, finer: f64, linear: LinearSolver) -> Result<Solved, StudyError> {
-    let mut scene = scene(case).map_err(StudyError::failed("building the square"))?;
     let h = 1.0 / case.count("cells")? as f64;
+    let (steps, dt_ratio) = (case.count("steps")?, case.number("dt_ratio")?);
+    let step = |scene: &Scene<2>| {
+        let speeds = scene.bodies().iter().map(Body::wave_speed);
+        dt_ratio * h / speeds.fold(0.0, f64::max)
+    };
+    let mut scene = scene(case, |scene| steps as f64 * step(scene))
+        .map_err(StudyError::failed("building the square"))?;
     let grid = Grid::over([-4.0 * h, -4.0 * h], [1.0 + 4.0 * h, 1.0 + 4.0 * h], h)
         .map_err(StudyError::failed("making the grid"))?;
-    let speeds = scene.bodies().iter().map(Body::wave_speed);
-    let step = case.number("dt_ratio")? * h / speeds.fold(0.0, f64::max);
     let settings = ImplicitSettings {
-        step,
+        step: step(&scene),
         linear,
         tolerance: case.number("tolerance")? / finer,
         max_cuts: 0,
@@ -317,7 +332,7 @@ fn solve(case: &Parameters, finer: f64, linear: LinearSolver) -> Result<Solved, 
     let mut reason = NewtonStop::Converged.text().to_owned();
     let mut converged = true;
     let start = Instant::now();
-    for _ in 0..case.count("steps")? {
+    for _ in 0..steps {
         let stepped = solver.step(&mut scene, f64::INFINITY);
         let statistics = solver.statistics();
         newton += statistics.residuals.len().saturating_sub(1);

@@ -8,9 +8,10 @@
 //! A step that does not converge is cut and tried again; the scene is untouched until one does.
 //!
 //! `trial` is a step in the making; `newton` balances it at a given load, `path` with the load as an
-//! unknown, for which `border` has the scalar equations; `step` chooses, cuts and books.
+//! unknown, for which `border` has the scalar equations; `control` chooses between them, `step` cuts and books.
 
 mod border;
+mod control;
 mod newton;
 mod path;
 mod settings;

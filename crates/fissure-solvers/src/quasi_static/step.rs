@@ -1,4 +1,4 @@
-//! One load step: Newton's method, cut and retried until it converges.
+//! One load step: cut and retried until it converges, then booked.
 
 use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_materials::Tangent;
@@ -8,15 +8,12 @@ use fissure_scene::{
 };
 use nalgebra::SVector;
 
-use super::newton::balanced;
-use super::path::{Goal, follow};
-use super::settings::{LoadControl, QuasiStaticSettings, VolumeChange};
-use super::trial::{Equilibrium, Start, Trial};
+use super::settings::{QuasiStaticSettings, VolumeChange};
+use super::trial::Equilibrium;
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
-use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta, strain};
-use crate::equilibrium::failure::Failure;
+use crate::equilibrium::balance::strain;
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::statistics::StepStatistics;
 use crate::equilibrium::system::System;
@@ -27,36 +24,32 @@ use crate::transfers::Transfers;
 
 /// Quasi-static material-point solver on a grid with a shape function.
 pub struct QuasiStatic<S, const D: usize> {
-    grid: Grid<D>,
-    shape: S,
-    settings: QuasiStaticSettings,
-    placement: Placement<D>,
-    constraints: Constraints<D>,
-    system: System<D>,
-    internal: NodeSums<D>,
-    displacement: Vec<SVector<f64, D>>,
-    tangents: Vec<Vec<Tangent>>,
-    pace: Pace,
+    pub(super) grid: Grid<D>,
+    pub(super) shape: S,
+    pub(super) settings: QuasiStaticSettings,
+    pub(super) placement: Placement<D>,
+    pub(super) constraints: Constraints<D>,
+    pub(super) system: System<D>,
+    pub(super) internal: NodeSums<D>,
+    pub(super) displacement: Vec<SVector<f64, D>>,
+    pub(super) tangents: Vec<Vec<Tangent>>,
+    pub(super) pace: Pace,
     /// Largest reaction so far, N: what residuals are measured by.
-    force_scale: f64,
+    pub(super) force_scale: f64,
     /// Nodal displacements of the last step were mapped to the particles' velocities.
-    has_stepped: bool,
+    pub(super) has_stepped: bool,
     /// Change of load time over the length of the last step.
-    load_rate: f64,
+    pub(super) load_rate: f64,
     /// Arc length of a step of full length, m; 0 before the first step.
-    arc_length: f64,
+    pub(super) arc_length: f64,
     /// What the last step held fixed.
-    last_control: StepControl,
-    dissipated_before: bool,
+    pub(super) last_control: StepControl,
+    /// Whether it dissipated energy.
+    pub(super) dissipated_before: bool,
     /// Whether the memory was recalled from a checkpoint and the scene restored after.
-    recalled: bool,
-    statistics: StepStatistics,
+    pub(super) recalled: bool,
+    pub(super) statistics: StepStatistics,
 }
-
-/// Energy that a prescribed step may dissipate, over that of a controlled one, before control is taken.
-const MOST: f64 = 1.5;
-/// The same before control is given back.
-const LEAST: f64 = 0.01;
 
 impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     /// A solver with nothing moved yet.
@@ -177,171 +170,6 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
         self.placement.update(&self.grid, scene)
-    }
-
-    /// A trial of length `dt` that goes on as the last step did, or, if not `predict`, stands still.
-    fn trial<'a>(
-        &'a mut self,
-        scene: &'a mut Scene<D>,
-        dt: f64,
-        predict: bool,
-    ) -> Result<Trial<'a, S, D>, Failure> {
-        let transfers = Transfers {
-            grid: &self.grid,
-            shape: &self.shape,
-            placement: &self.placement,
-            kinematics: scene.kinematics(),
-            simd: Simd::widest(),
-        };
-        let off_grid = |scene: &Scene<D>, (body, index): (usize, usize)| {
-            Failure::from(outside(scene, body, index))
-        };
-        let load_time = scene.load_time();
-        let (grid, shape) = (&self.grid, &self.shape);
-        self.constraints
-            .collect(scene, grid, shape, &self.placement, load_time)?;
-        self.system
-            .find(&transfers, scene, &self.constraints)
-            .map_err(|failed| off_grid(scene, failed))?;
-        let sums = &mut self.internal;
-        momenta(&transfers, scene, sums).map_err(|failed| off_grid(scene, failed))?;
-        let nodes = 0..sums.len();
-        let masses: Vec<f64> = nodes.clone().map(|node| sums.mass(node)).collect();
-        self.displacement.clear();
-        self.displacement
-            .extend(nodes.clone().map(|node| match predict {
-                true => sums.velocity(node) * dt,
-                false => SVector::zeros(),
-            }));
-        let stepped = self.has_stepped;
-        let momenta = nodes.map(|node| match stepped {
-            true => sums.momentum(node),
-            false => SVector::zeros(),
-        });
-        let momenta = momenta.collect();
-        let external = external_forces(&transfers, scene, &masses, load_time)
-            .map_err(|failed| off_grid(scene, failed))?;
-        let links = &mut self.system.links;
-        if self.settings.volume == VolumeChange::Patch {
-            let still = vec![SVector::zeros(); sums.len()];
-            links.average(scene, &still);
-            links.averaged_forces(scene, sums, At::Start);
-        } else {
-            internal_forces(&transfers, scene, sums, At::Start)
-                .map_err(|failed| off_grid(scene, failed))?;
-        }
-        self.tangents.resize(scene.bodies().len(), Vec::new());
-        self.statistics.residuals.clear();
-        Ok(Trial {
-            start: Start {
-                load_time,
-                mass: masses.iter().sum(),
-                masses,
-                momenta,
-                external,
-                internal: forces(sums),
-            },
-            scene,
-            transfers,
-            settings: &self.settings,
-            constraints: &mut self.constraints,
-            system: &mut self.system,
-            internal: &mut self.internal,
-            tangents: &mut self.tangents,
-            statistics: &mut self.statistics,
-            displacement: &mut self.displacement,
-            load_step: if predict { self.load_rate * dt } else { 0.0 },
-            dt,
-            dissipated_before: self.dissipated_before,
-            force_scale: self.force_scale,
-        })
-    }
-
-    /// A step of length `dt` whose end has the loads and motions of its end in time.
-    fn prescribed(
-        &mut self,
-        scene: &mut Scene<D>,
-        dt: f64,
-        cuts: usize,
-    ) -> Result<Equilibrium<D>, Failure> {
-        // The extrapolated start may be what fails.
-        if self.has_stepped && cuts == 0 {
-            let mut trial = self.trial(scene, dt, true)?;
-            trial.load_step = dt;
-            if let Ok(equilibrium) = balanced(&mut trial) {
-                return Ok(equilibrium);
-            }
-        }
-        let mut trial = self.trial(scene, dt, false)?;
-        trial.load_step = dt;
-        balanced(&mut trial)
-    }
-
-    /// A step of length `dt` under the control of the settings, and what it held fixed; `left` is the time to go.
-    fn attempt(
-        &mut self,
-        scene: &mut Scene<D>,
-        (dt, left): (f64, f64),
-        cuts: usize,
-    ) -> Result<(Equilibrium<D>, StepControl), Failure> {
-        let share = dt / self.settings.step;
-        match self.settings.control {
-            LoadControl::ArcLength if self.arc_length > 0.0 => {
-                let goal = Goal::Length(share * self.arc_length);
-                let followed = follow(&mut self.trial(scene, dt, true)?, goal)?;
-                Ok((followed, StepControl::ArcLength))
-            }
-            LoadControl::Prescribed | LoadControl::ArcLength => {
-                let prescribed = self.prescribed(scene, dt, cuts)?;
-                Ok((prescribed, StepControl::Prescribed))
-            }
-            LoadControl::Dissipation { energy } => {
-                self.dissipating(scene, (dt, left), cuts, energy)
-            }
-        }
-    }
-
-    /// A step that dissipates its share of `energy`, or a prescribed one that dissipates little enough. What the
-    /// last step was is tried first.
-    fn dissipating(
-        &mut self,
-        scene: &mut Scene<D>,
-        (dt, left): (f64, f64),
-        cuts: usize,
-        energy: f64,
-    ) -> Result<(Equilibrium<D>, StepControl), Failure> {
-        let share = energy * dt / self.settings.step;
-        let controlled = self.last_control == StepControl::Dissipation;
-        let most = energy * if controlled { LEAST } else { MOST };
-        let mut failed = None;
-        for turn in 0..2 {
-            let found = if controlled == (turn == 0) {
-                let goal = Goal::Energy(share);
-                let followed = self.trial(scene, dt, self.has_stepped);
-                let followed = followed.and_then(|mut trial| follow(&mut trial, goal));
-                followed.map(|found| (found, StepControl::Dissipation))
-            } else {
-                // Beyond the end of a branch, which short steps have approached, a long one gets.
-                let beyond = controlled && cuts == 0;
-                let length = if beyond {
-                    left.min(self.settings.step)
-                } else {
-                    dt
-                };
-                let prescribed = self.prescribed(scene, length, cuts);
-                let little = |found: &Equilibrium<D>| found.totals.dissipated <= most;
-                match prescribed {
-                    Ok(found) if little(&found) => Ok((found, StepControl::Prescribed)),
-                    Ok(_) => Err(Failure::at(NewtonStop::Control, 0.0)),
-                    Err(failed) => Err(failed),
-                }
-            };
-            match found {
-                Ok(found) => return Ok(found),
-                Err(failure) => failed = failed.or(Some(failure)),
-            }
-        }
-        Err(failed.unwrap_or_else(|| Failure::at(NewtonStop::Control, f64::NAN)))
     }
 
     /// Makes the trial the present and books the step.

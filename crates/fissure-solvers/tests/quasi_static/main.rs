@@ -2,5 +2,6 @@
 
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
+mod implex;
 mod locking;
 mod snap_back;

@@ -208,6 +208,46 @@ fn a_load_is_followed_past_its_limit() {
     }
 }
 
+/// Two cells that are equally weak may both open: in equilibrium, and unstable, which the pivots say. One that is weaker
+/// opens alone, stably.
+#[test]
+fn a_branch_that_nature_leaves_has_negative_pivots() {
+    let length = 0.2;
+    let settings = QuasiStaticSettings {
+        step: peak(length) / 20.0,
+        ..QuasiStaticSettings::default()
+    };
+    for (imperfection, stable) in [(0.0, false), (0.1, true)] {
+        let along = Hold::Component(vector![1.0, 0.0]);
+        let spacing = Spacing(0.5 * SPACING);
+        let mut scene = Scene::plane(Plane::Strain { thickness: 0.06 });
+        let second = Scale {
+            strength: WEAK.strength * (1.0 + imperfection),
+            ..WEAK
+        };
+        scene
+            .fill("bar", law(), &block(0.0, length), &spacing)
+            .unwrap()
+            .set_scale("bar", |x| (0.04..0.06).contains(&x[0]), WEAK)
+            .unwrap()
+            .set_scale("bar", |x| (0.14..0.16).contains(&x[0]), second)
+            .unwrap();
+        for (name, from, speed) in [("left", -SPACING, 0.0), ("right", length, 1.0)] {
+            let pull = Velocity(move |_| speed);
+            scene
+                .rigid(name, &block(from, from + SPACING), &spacing, along, pull)
+                .unwrap();
+        }
+        let mut solver = QuasiStatic::new(grid(length), shape::Linear, settings).unwrap();
+        let mut pivots = None;
+        while scene.energy().dissipated < 0.3 * SECTION * TOUGHNESS {
+            let report = solver.step(&mut scene, f64::INFINITY).unwrap();
+            pivots = report.solution.unwrap().negative_pivots;
+        }
+        assert_eq!(pivots == Some(0), stable, "{imperfection}: {pivots:?}");
+    }
+}
+
 fn bytes(scene: &Scene<2>) -> Vec<Vec<u8>> {
     let sections = scene.save().unwrap();
     sections.into_iter().map(|section| section.bytes).collect()
