@@ -92,9 +92,9 @@ impl Specimen {
             },
             threshold: case.number("threshold")?.to_radians(),
             shear: match case.choice("faces")? {
-                "elastic" => Shear::Elastic,
+                "free" => Shear::Coulomb(0.0),
                 "damaged" => Shear::Damaged(0.0),
-                _ => Shear::Coulomb(0.0),
+                _ => Shear::Elastic,
             },
         })
     }
