@@ -53,6 +53,8 @@ pub(super) struct Specimen {
     /// Least angle between planes of a point.
     pub threshold: f64,
     pub shear: Shear,
+    /// Whether the points hold the arms from turning, as one inside a cell does.
+    pub clamped: bool,
 }
 
 impl Specimen {
@@ -96,6 +98,7 @@ impl Specimen {
                 "damaged" => Shear::Damaged(0.0),
                 _ => Shear::Elastic,
             },
+            clamped: case.choice("grip")? == "cell",
         })
     }
 
@@ -185,7 +188,13 @@ impl Specimen {
         let middle = ((self.ligament + 0.5 * self.notch) / h).round() * h;
         let out = (0.5 * self.half / h).round() * h;
         for (name, from, sign) in [(GRIPS[0], -out - h, -1.0), (GRIPS[1], h + out, 1.0)] {
-            let cell = Block::new([from, middle], [from + h, middle + h]);
+            // A point on a line of the grid moves the two nodes beside it, about which the arm can turn.
+            let low = if self.clamped {
+                middle
+            } else {
+                middle - 0.5 * h
+            };
+            let cell = Block::new([from, low], [from + h, low + h]);
             let pull = move |t: f64| {
                 let share = if rise > 0.0 { (t / rise).min(1.0) } else { 1.0 };
                 sign * speed * share
