@@ -6,6 +6,7 @@ mod bar;
 mod bar_bifurcation;
 mod bar_orientation;
 mod bar_snapback;
+mod compact_tension;
 mod convergence;
 mod filling;
 mod method;
@@ -35,6 +36,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     studies.push(Box::new(bar_orientation::BarOrientation));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));
     studies.push(Box::new(bar_snapback::BarSnapback));
+    studies.push(Box::new(compact_tension::CompactTension));
     studies.extend(nairn::studies());
     studies.extend(fissure_law_studies::studies());
     studies

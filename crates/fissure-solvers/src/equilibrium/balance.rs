@@ -42,6 +42,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
             dt,
             band: band.band(transfers.shape, transfers.grid, body),
             viscosity: None,
+            simd: transfers.simd,
         };
         let runs = &transfers.placement.runs[index];
         let part = match tangents.as_mut() {
@@ -94,7 +95,7 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     sums: &mut NodeSums<D>,
     at: At,
 ) -> Result<(), (usize, usize)> {
-    transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
+    transfers.spread::<true>(scene, sums, |body: &Body<D>, i| {
         let particles = body.particles();
         let motion = match at {
             At::Start => &particles.motion,
@@ -107,9 +108,9 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
         let mut gift = Gift::default();
         add_stress(&mut gift, transfers.kinematics, stress, volume, x);
         // Gradients at the end of the step from those at its start.
-        let at_start = gift.gradient;
+        let at_start = gift.sloped;
         let relative = relative::<D>(f_new, f_old);
-        for (j, gradient) in gift.gradient.iter_mut().enumerate() {
+        for (j, gradient) in gift.sloped.iter_mut().enumerate() {
             for (c, number) in gradient.iter_mut().enumerate() {
                 *number = (0..D).map(|k| at_start[k][c] * relative[(k, j)]).sum();
             }
