@@ -29,8 +29,8 @@ const YOUNG: f64 = 1e6;
 const DENSITY: f64 = 1000.0;
 /// How much more accurate the reference is.
 const FINER: f64 = 100.0;
-/// Refinements from which a growth is fitted.
-const SIZES: usize = 3;
+/// Refinements, at the least, from which a growth is fitted.
+const REFINEMENTS: usize = 2;
 
 impl Study for Stiff {
     fn name(&self) -> &'static str {
@@ -193,21 +193,19 @@ impl Study for Stiff {
             .y_label("products")
             .log_x()
             .log_y();
-        let mut drawn = false;
-        for growth in growth.iter().filter(|growth| growth.sizes() > SIZES - 1) {
+        let grown = |growth: &&Growth| growth.sizes() > REFINEMENTS && growth.products[0] > 0.0;
+        let grown: Vec<&Growth> = growth.iter().filter(grown).collect();
+        for growth in &grown {
             rows.row(growth.row()?)?;
-            if growth.products[0] > 0.0 {
-                drawn = true;
-                plot = plot.series(
-                    &growth.name,
-                    growth.unknowns.clone(),
-                    growth.products.clone(),
-                    Style::LineAndMarkers,
-                );
-            }
+            plot = plot.series(
+                &growth.name,
+                growth.unknowns.clone(),
+                growth.products.clone(),
+                Style::LineAndMarkers,
+            );
         }
         match rows.out_dir() {
-            Some(folder) if drawn => save(plot, &folder.join("growth.png")),
+            Some(folder) if !grown.is_empty() => save(plot, &folder.join("growth.png")),
             _ => Ok(()),
         }
     }
@@ -467,19 +465,13 @@ impl Growth {
     }
 
     fn row(&self) -> Result<Row, StudyError> {
-        let exponent = match self.products[0] > 0.0 {
-            true => {
-                fit_slope(&self.unknowns, &self.products)
-                    .map_err(StudyError::failed("fitting the growth"))?
-                    .exponent
-            }
-            false => 0.0,
-        };
+        let fit = fit_slope(&self.unknowns, &self.products);
+        let fit = fit.map_err(StudyError::failed("fitting the growth"))?;
         Ok(Row::other(NAME)
             .field("case", "growth")
             .field("scheme", self.name.as_str())
             .field("unknowns", Field::Numbers(self.unknowns.clone()))
             .field("iterations", Field::Numbers(self.products.clone()))
-            .field("exponent", exponent))
+            .field("exponent", fit.exponent))
     }
 }
