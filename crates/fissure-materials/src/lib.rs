@@ -28,6 +28,7 @@ mod error;
 mod finite_strain;
 pub mod hardening;
 mod hencky;
+mod implex;
 mod increment;
 mod isotropic;
 mod j2;
@@ -55,8 +56,9 @@ mod viscous_damage;
 mod wrapping;
 
 pub use anisotropic_damage::{
-    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
-    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+    AnisotropicDamage, AnisotropicDamageState, ConjugateDamage, DamagePlane, EllipticalDamage,
+    IncrementalDamage, IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+    TwoCrackDamage, TwoCrackState,
 };
 pub use biot::Biot;
 pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};
@@ -67,6 +69,7 @@ pub use error::{MaterialError, check_parameter};
 pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3, simd::EIGHT};
 pub use hardening::Hardening;
 pub use hencky::Hencky;
+pub use implex::{Extrapolated, Implex, ImplexState};
 pub use increment::{External, Increment, Response, Scale};
 pub use isotropic::Isotropic;
 pub use j2::{J2, J2State};

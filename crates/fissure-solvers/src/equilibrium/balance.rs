@@ -5,6 +5,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
+use super::averages::Averages;
 use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
 use super::links::Links;
@@ -16,13 +17,15 @@ use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
-/// Trial motion and stresses for nodal displacements, and tangents where there is room for them.
+/// Trial motion and stresses for nodal displacements, with averaged volume changes or without, and tangents
+/// where there is room for them.
 pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
     band: BandSource,
     dt: f64,
+    averages: Option<&Averages<D>>,
     mut tangents: Option<&mut [Vec<Tangent>]>,
 ) -> Result<SweepTotals, SolveError> {
     let (step, time) = (scene.step() + 1, scene.time());
@@ -31,6 +34,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
         let kernel = DisplacementKernel {
             transfers,
             displacement,
+            factors: averages.map(|averages| averages.factors[index].as_slice()),
             half_edges: *body.half_edges(),
             dt,
         };
@@ -67,14 +71,12 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
 pub(crate) fn external_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    masses: &NodeSums<D>,
+    masses: &[f64],
     time: f64,
 ) -> Result<Vec<SVector<f64, D>>, (usize, usize)> {
     let loads = Loads::new(transfers, scene, time)?;
-    let nodes = 0..masses.len();
-    Ok(nodes
-        .map(|node| loads.at(node, masses.mass(node)))
-        .collect())
+    let nodes = masses.iter().enumerate();
+    Ok(nodes.map(|(node, &mass)| loads.at(node, mass)).collect())
 }
 
 /// When internal forces are wanted.
