@@ -19,7 +19,10 @@ fn one_plane_dissipates_its_toughness_and_several_planes_more() {
     let spent = |row| number(row, "values", "energy_per_area");
     let (one, several) = (spent(&ideal), spent(&multiple));
     assert!(planes >= 2.0, "{planes} in {multiple}");
-    assert!(several >= 1.02 * one, "{one} on one plane, {several} on several");
+    assert!(
+        several >= 1.02 * one,
+        "{one} on one plane, {several} on several"
+    );
     for row in [&ideal, &multiple] {
         let imbalance = number(row, "values", "energy_imbalance");
         assert!(imbalance.abs() <= 0.05, "{imbalance} in {row}");
