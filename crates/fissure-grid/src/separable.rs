@@ -67,8 +67,8 @@ impl<const D: usize, const K: usize> Separable<D, K> {
             arm,
             spacing: grid.spacing(),
         };
-        for k in 0..K {
-            stencil.slopes[k] = slopes[k] * grid.inverse_spacing();
+        for slope in &mut stencil.slopes {
+            *slope = *slope * grid.inverse_spacing();
         }
         fits.then_some(stencil)
     }

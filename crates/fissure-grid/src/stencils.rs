@@ -158,12 +158,11 @@ impl<const K: usize> Along<K> {
         tile: i32,
         x: &[SVector<f64, D>; EIGHT],
         profile: &impl Profile<K>,
-        base: &mut Numbers<EIGHT>,
-        fits: &mut Numbers<EIGHT>,
+        (base, fits): (&mut Numbers<EIGHT>, &mut Numbers<EIGHT>),
     ) {
         let mut position = Numbers::splat(0.0);
-        for place in 0..EIGHT {
-            position.0[place] = x[place][axis];
+        for (place, x) in position.0.iter_mut().zip(x) {
+            *place = x[axis];
         }
         let (cell, local) = grid.along(axis, position);
         let (first, values, slopes) = profile.line(local);
@@ -193,14 +192,13 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     ) -> Self {
         let mut along = [Along::NOTHING; D];
         let (mut base, mut fits) = (Numbers::splat(0.0), Numbers::splat(1.0));
-        let (b, f) = (&mut base, &mut fits);
         // Written out, so that no axis is a number at run time.
-        along[0].set(grid, 0, tile[0], x, profile, b, f);
+        along[0].set(grid, 0, tile[0], x, profile, (&mut base, &mut fits));
         if D > 1 {
-            along[1 % D].set(grid, 1, tile[1 % D], x, profile, b, f);
+            along[1 % D].set(grid, 1, tile[1 % D], x, profile, (&mut base, &mut fits));
         }
         if D > 2 {
-            along[2 % D].set(grid, 2, tile[2 % D], x, profile, b, f);
+            along[2 % D].set(grid, 2, tile[2 % D], x, profile, (&mut base, &mut fits));
         }
         Self {
             along,

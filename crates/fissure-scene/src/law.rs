@@ -521,7 +521,8 @@ impl Default for ByEights {
 impl ByEights {
     #[inline(always)]
     fn answered(&self, row: usize) -> bool {
-        self.answered >> (row / EIGHT) & 1 == 1
+        // A run of another solver may be longer.
+        row < Run::MAX && self.answered >> (row / EIGHT) & 1 == 1
     }
 }
 

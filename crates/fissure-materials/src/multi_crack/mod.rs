@@ -390,9 +390,8 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         out[2] = planes.iter().map(|plane| plane.opening).fold(0.0, f64::max);
         let energy = |failed: bool| -> f64 {
             let these = planes.iter().filter(|plane| plane.failed == failed);
-            let spent = these.map(|plane| {
-                self.decohesion.dissipated_fraction(plane.softened) / plane.width
-            });
+            let spent = these
+                .map(|plane| self.decohesion.dissipated_fraction(plane.softened) / plane.width);
             spent.sum::<f64>() * self.decohesion.toughness()
         };
         (out[3], out[4]) = (energy(true), energy(false));
