@@ -117,7 +117,7 @@ impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F
         stencil.visit_values(|entry, weight| {
             let index = window_node(tile, entry);
             let node = plane(&self.grid.node(index));
-            let cracks = between(self.cracks, 0..self.cracks.len(), x, &node);
+            let cracks = between(self.cracks, 0..self.cracks.len(), x, &node, self.grid.spacing());
             if let Some((counts, way)) = self.way_at(index, cracks) {
                 sum += plane(&way) * (weight * counts);
                 weights += weight * counts;
@@ -141,4 +141,18 @@ impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F
             same.then(|| (self.way)(copy.node as usize)).flatten()
         })
     }
+}
+
+/// Normal from the first to the second face of a crack near `x`, and how far they are open, m: by
+/// the displacements of its vertices since it was made, which is exact for a crack that was closed.
+pub(crate) fn faces<const D: usize>(
+    crack: &CrackLine,
+    in_order: bool,
+    x: &SVector<f64, D>,
+) -> (SVector<f64, D>, f64) {
+    let (normal, jump) = crack.face_at(&plane(x));
+    let sign = if in_order { 1.0 } else { -1.0 };
+    let mut towards = SVector::zeros();
+    (towards[0], towards[1]) = (normal.x * sign, normal.y * sign);
+    (towards, jump.dot(&normal))
 }

@@ -10,6 +10,8 @@ use fissure_grid::{Grid, WINDOW, window_node};
 use fissure_scene::{CrackLine, Scene, Side, SolveError};
 use nalgebra::{SVector, Vector2};
 
+use crate::release::released;
+
 /// Most cracks of a scene: two bits each of a [`Label`].
 const MOST_CRACKS: usize = 32;
 
@@ -133,7 +135,8 @@ impl<'a, const D: usize> Between<'a, D> {
     }
 
     fn cracks_between(&self, from: &Vector2<f64>, to: &Vector2<f64>) -> u64 {
-        between(self.cracks, self.near.iter().copied(), from, to)
+        let near = self.near.iter().copied();
+        between(self.cracks, near, from, to, self.grid.spacing())
     }
 
     fn find_near(&mut self, tile: [i32; D]) {
@@ -151,17 +154,23 @@ impl<'a, const D: usize> Between<'a, D> {
     }
 }
 
-/// The cracks that the way from a particle to a node crosses, as in a [`Label`].
+/// The cracks that the way from a particle to a node crosses, as in a [`Label`], but for those that have not
+/// [`released`] the node.
 pub(crate) fn between(
     cracks: &[CrackLine],
     near: impl Iterator<Item = usize>,
     from: &Vector2<f64>,
     to: &Vector2<f64>,
+    spacing: f64,
 ) -> u64 {
-    near.map(|crack| match cracks[crack].crossing(from, to) {
-        None => 0,
-        Some(Side::Minus) => 1 << (2 * crack),
-        Some(Side::Plus) => 2 << (2 * crack),
+    near.map(|crack| {
+        let side = cracks[crack].crossing(from, to);
+        let side = side.filter(|_| released(&cracks[crack], to, spacing) > 0.0);
+        match side {
+            None => 0,
+            Some(Side::Minus) => 1 << (2 * crack),
+            Some(Side::Plus) => 2 << (2 * crack),
+        }
     })
     .sum()
 }

@@ -7,6 +7,7 @@
 //! the law's Truesdell tangent `c` and the stress: `Σ V (∇_x N_i · c · ∇_x N_j + ∇_x N_i·σ·∇_x N_j 1)`.
 //! A step that does not converge is cut and tried again; the scene is untouched until one does.
 
+mod faces;
 mod settings;
 mod step;
 

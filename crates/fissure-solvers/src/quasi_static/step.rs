@@ -5,6 +5,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use nalgebra::SVector;
 
+use super::faces::Faces;
 use super::settings::QuasiStaticSettings;
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
@@ -17,6 +18,7 @@ use crate::equilibrium::system::{Jacobian, System};
 use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::Placement;
+use crate::release::Release;
 use crate::transfers::Transfers;
 
 /// Quasi-static material-point solver on a grid with a shape function.
@@ -27,6 +29,8 @@ pub struct QuasiStatic<S, const D: usize> {
     placement: Placement<D>,
     constraints: Constraints<D>,
     system: System<D>,
+    faces: Faces<D>,
+    release: Release<D>,
     internal: NodeSums<D>,
     displacement: Vec<SVector<f64, D>>,
     tangents: Vec<Vec<Tangent>>,
@@ -63,6 +67,7 @@ struct Equilibrium<const D: usize> {
     iterations: usize,
     load_work: f64,
     internal_work: f64,
+    contact_work: f64,
     force_scale: f64,
 }
 
@@ -80,6 +85,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             placement: Placement::default(),
             constraints: Constraints::default(),
             system: System::default(),
+            faces: Faces::default(),
+            release: Release::default(),
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
@@ -121,6 +128,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .find(&transfers, scene, &Constraints::default())
             .map_err(off_grid)?;
         let still = vec![SVector::zeros(); transfers.placement.node_count()];
+        self.system.springs.clear();
         self.tangents.resize(scene.bodies().len(), Vec::new());
         let (band, dt) = (self.settings.band, self.settings.step);
         strain(
@@ -171,6 +179,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             placement,
             constraints,
             system,
+            faces,
+            release,
             internal,
             displacement,
             tangents,
@@ -191,6 +201,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         constraints
             .collect(scene, grid, shape, placement, end)
             .map_err(Failed::Refused)?;
+        release.look(scene);
+        faces.find(&transfers, scene, release);
+        system.links.joined = faces.joined();
         system
             .find(&transfers, scene, constraints)
             .map_err(|failed| off_grid(scene, failed))?;
@@ -233,6 +246,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .map_err(Failed::Refused)?;
             internal_forces(&transfers, scene, internal, At::End)
                 .map_err(|failed| off_grid(scene, failed))?;
+            let stresses = forces(internal);
+            faces.add(&system.links, displacement, internal, &mut system.springs);
             let unbalanced = unbalanced(&system.links, &system.freedoms, internal, &external);
             // Of this state and of the steps accepted before, not of iterates that were left.
             let scale = force_scale.max(unbalanced.scale);
@@ -247,7 +262,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                     reactions: reactions(scene, constraints, internal, &external),
                     iterations: iteration,
                     load_work: work(&before_loads, &external, displacement),
-                    internal_work: -work(&before_stresses, &forces(internal), displacement),
+                    internal_work: -work(&before_stresses, &stresses, displacement),
+                    contact_work: faces.work(displacement),
                     force_scale: scale,
                 });
             }
@@ -256,7 +272,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             }
             // Where a crack is open the tangent is next to nothing, and a full step runs far into
             // the other side: go back and stiffen the system, as Levenberg and Marquardt do.
-            if error > last && damping < MOST_DAMPING {
+            if error > last && damping < MOST_DAMPING && !faces.changed {
                 damping = (damping * 1e2).clamp(1e-6, MOST_DAMPING);
                 displacement.clone_from(&before);
                 continue;
@@ -294,6 +310,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             displacement,
             ..
         } = self;
+        self.release.keep(grid, self.faces.tied(displacement));
         let cracks = carried(scene, grid, placement, |node| {
             system.links.number(node).map(|_| (1.0, displacement[node]))
         })?;
@@ -324,6 +341,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 internal: equilibrium.internal_work,
                 stored: equilibrium.totals.stored,
                 dissipated: equilibrium.totals.dissipated,
+                contact: equilibrium.contact_work,
                 ..StepEnergy::default()
             },
             reactions: equilibrium.reactions,
@@ -377,11 +395,14 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
 
     fn memory(&self) -> Vec<f64> {
         let stepped = f64::from(u8::from(self.has_stepped));
-        vec![self.pace.next, self.force_scale, stepped]
+        let mut memory = vec![self.pace.next, self.force_scale, stepped];
+        memory.extend(self.release.memory());
+        memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
-        if let [next_step, force_scale, stepped] = *memory {
+        if let [next_step, force_scale, stepped, ref rest @ ..] = *memory {
+            self.release.recall(rest);
             self.pace.next = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;

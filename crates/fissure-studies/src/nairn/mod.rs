@@ -1,7 +1,8 @@
-//! The examples of Nairn, Hammerquist & Aimene 2017, sec. 3, that need only the damage laws.
+//! The examples of Nairn, Hammerquist & Aimene 2017, sec. 3.
 //!
 //! What the studies share is here: the numerics they choose from (`numerics`), the loop that runs
-//! a scene and what its ledger says (`drive`), failed particles (`failed`) and pictures.
+//! a scene and what its ledger says (`drive`), failed particles (`failed`), the notched plate (`plate`) and the tips of
+//! its cracks (`tips`), and pictures.
 
 pub mod coating;
 pub mod edge_notch;
@@ -15,7 +16,9 @@ mod failed;
 mod many;
 mod numerics;
 mod pictures;
+mod plate;
 mod reference;
+mod tips;
 
 use fissure_study::Study;
 
