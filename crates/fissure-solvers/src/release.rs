@@ -22,7 +22,7 @@
 use std::collections::BTreeMap;
 
 use fissure_grid::Grid;
-use fissure_scene::{Body, CrackLine, End, Kinematics, Scene};
+use fissure_scene::{Body, CrackLine, End, EndState, Kinematics, Polyline, Scene, Side};
 use nalgebra::{SVector, Vector2};
 
 use crate::groups::plane;
@@ -50,6 +50,40 @@ pub(crate) fn released(crack: &CrackLine, x: &Vector2<f64>, spacing: f64) -> f64
         (behind / spacing + AHEAD).clamp(0.0, 1.0)
     };
     crack.tips().map(share).fold(1.0, f64::min)
+}
+
+/// A crack as nodes see it: its tips reach `A` of (1) further, so that nodes it has begun to release are told from others.
+pub(crate) struct SplittingCrack<'a> {
+    crack: &'a CrackLine,
+    pub line: Polyline,
+    spacing: f64,
+}
+
+impl<'a> SplittingCrack<'a> {
+    /// All cracks of a scene on a grid of this spacing, m.
+    pub(crate) fn all(cracks: &'a [CrackLine], spacing: f64) -> Vec<Self> {
+        let lengthened = |crack: &'a CrackLine| {
+            let last = crack.line().points().len() - 1;
+            let is_tip = |end| crack.end(end) == EndState::Tip;
+            let line = crack.line().carried(|(i, x)| match i {
+                0 if is_tip(End::First) => x + crack.tip(End::First).1 * (AHEAD * spacing),
+                i if i == last && is_tip(End::Last) => x + crack.tip(End::Last).1 * (AHEAD * spacing),
+                _ => *x,
+            });
+            Self {
+                crack,
+                line: line.unwrap_or_else(|_| crack.line().clone()),
+                spacing,
+            }
+        };
+        cracks.iter().map(lengthened).collect()
+    }
+
+    /// The side of a node if the crack separates it from a particle and has begun to release it.
+    pub(crate) fn crossing(&self, particle: &Vector2<f64>, node: &Vector2<f64>) -> Option<Side> {
+        let side = self.line.crossing(particle, node)?;
+        (released(self.crack, node, self.spacing) > 0.0).then_some(side)
+    }
 }
 
 /// A node by its place in the grid, and the crack that has split it.

@@ -10,8 +10,9 @@
 //!
 //! and the spring of `release` near a tip; the minus field the opposite. `κ` is a penalty of [`FIRM`] times what a node
 //! resists of itself, so faces overlap by that much less than they would. Sticking faces slip by as little in a step, so
-//! that no force has to be remembered: what holds them is found anew, by equilibrium. The derivative is exact; which
-//! faces touch and which slide settles within Newton's iterations.
+//! that no force has to be remembered: what holds them is found anew, by equilibrium. The derivative leaves out how
+//! friction follows the pressure, so that the matrix stays symmetric; which faces touch and which slide settles within
+//! Newton's iterations.
 
 use fissure_grid::Shape;
 use fissure_scene::Scene;
@@ -195,7 +196,6 @@ impl<const D: usize> Pair<D> {
             if most > 0.0 {
                 let t = along / length;
                 force -= t * most;
-                stiffness -= t * n.transpose() * (kappa * self.friction);
                 stiffness += (across - t * t.transpose()) * (most / length);
             }
         }

@@ -6,6 +6,7 @@
 
 pub mod coating;
 pub mod edge_notch;
+pub mod interacting;
 pub mod random_block;
 pub mod stability;
 pub mod uniaxial;
@@ -27,6 +28,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     vec![
         Box::new(uniaxial::Uniaxial),
         Box::new(edge_notch::EdgeNotch),
+        Box::new(interacting::InteractingCracks),
         Box::new(coating::Coating),
         Box::new(random_block::RandomBlock),
         Box::new(stability::StabilityEta),

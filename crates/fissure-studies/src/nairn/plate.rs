@@ -97,6 +97,11 @@ impl Plate {
         Ok(plate)
     }
 
+    /// Height of the notch as a line, m.
+    pub(super) fn line(&self) -> f64 {
+        self.line
+    }
+
     /// Whether geometry and loading are those of the document.
     pub(super) fn is_documents(&self) -> bool {
         (self.width, self.height, self.crack) == (0.05, 0.1, 0.025)
