@@ -209,23 +209,26 @@ fn index<const D: usize>(grid: &Grid<D>, x: &SVector<f64, D>) -> [i32; D] {
     std::array::from_fn(|axis| ((x[axis] - origin[axis]) / grid.spacing()).round() as i32)
 }
 
-/// Length across the plane at the tip of a crack, m.
+/// A tip of a crack, or an end if it has none, m.
+fn looked_at(crack: &CrackLine) -> Vector2<f64> {
+    let end = crack.tips().next().unwrap_or(End::First);
+    crack.tip(end).0
+}
+
+/// Length across the plane at a crack, m.
 fn thickness<const D: usize>(scene: &Scene<D>, crack: &CrackLine) -> f64 {
     match scene.kinematics() {
         Kinematics::PlaneStrain { thickness } | Kinematics::PlaneStress { thickness } => thickness,
         Kinematics::Axisymmetric => {
-            let tip = crack.tips().next().map(|end| crack.tip(end).0);
-            std::f64::consts::TAU * tip.map_or(0.0, |tip| tip.x)
+            std::f64::consts::TAU * looked_at(crack).x
         }
         Kinematics::Solid => 0.0,
     }
 }
 
-/// ρ c² of the body that is nearest to a tip of a crack, Pa.
+/// ρ c² of the body that is nearest to a crack's tip, Pa.
 fn modulus<const D: usize>(scene: &Scene<D>, crack: &CrackLine) -> f64 {
-    let Some(tip) = crack.tips().next().map(|end| crack.tip(end).0) else {
-        return 0.0;
-    };
+    let tip = looked_at(crack);
     let deforms = |body: &&Body<D>| !body.particles().is_empty() && body.wave_speed() > 0.0;
     let distance = |body: &Body<D>| {
         let places = body.motion().position.iter();

@@ -12,7 +12,8 @@
 //! resists of itself, so faces overlap by that much less than they would. Sticking faces slip by as little in a step, so
 //! that no force has to be remembered: what holds them is found anew, by equilibrium. The derivative leaves out how
 //! friction follows the pressure, so that the matrix stays symmetric; which faces touch and which slide settles within
-//! Newton's iterations.
+//! Newton's iterations. A pair that cannot decide stays closed, even if it is pulled: the fields of a node that a crack
+//! grazes may hold a sliver of the material each, with next to no area between them.
 
 use fissure_grid::Shape;
 use fissure_scene::Scene;
@@ -27,6 +28,9 @@ use crate::transfers::Transfers;
 
 /// Penalty over the modulus of the material times the thickness.
 const FIRM: f64 = 1e4;
+
+/// Changes of what a pair does in a step after which it stays closed: it has no part of the crack of its own to decide by.
+const UNDECIDED: u8 = 6;
 
 /// Two fields of a node.
 #[derive(Clone, Debug)]
@@ -43,16 +47,20 @@ struct Pair<const D: usize> {
     /// N/m.
     penalty: f64,
     tie: Tie<D>,
-    state: State,
+    state: State<D>,
+    /// Whether particles reach both nodes.
+    active: bool,
+    /// How often that has changed in the step.
+    changes: u8,
 }
 
 /// What a pair does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum State {
-    #[default]
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State<const D: usize> {
     Open,
     Stuck,
-    Sliding,
+    /// With the unit vector of the friction on the plus field; zero without friction.
+    Sliding(SVector<f64, D>),
 }
 
 /// All pairs of a step.
@@ -100,7 +108,9 @@ impl<const D: usize> Faces<D> {
                         friction: line.contact().friction(),
                         penalty: FIRM * release.stiffness(crack),
                         tie: release.tie(scene, grid, crack, &place),
-                        state: State::default(),
+                        state: State::Open,
+                        active: false,
+                        changes: 0,
                     });
                 }
             }
@@ -128,9 +138,13 @@ impl<const D: usize> Faces<D> {
             let [Some(minus), Some(plus)] = numbers else {
                 continue;
             };
+            pair.active = true;
             let before = pair.state;
             let (force, stiffness) = pair.answer(displacement);
-            self.changed |= before != pair.state;
+            if before != pair.state {
+                self.changed = true;
+                pair.changes = pair.changes.saturating_add(1);
+            }
             sums.add_force(pair.nodes[1], &force);
             sums.add_force(pair.nodes[0], &-force);
             springs.push(Spring {
@@ -144,7 +158,7 @@ impl<const D: usize> Faces<D> {
     /// end, times the way.
     pub(super) fn work(&mut self, displacement: &[SVector<f64, D>]) -> f64 {
         let mut sum = 0.0;
-        for pair in &mut self.pairs {
+        for pair in self.pairs.iter_mut().filter(|pair| pair.active) {
             let way = pair.way(displacement);
             let (force, _) = pair.answer(displacement);
             sum -= (force - pair.tie.jump * (0.5 * pair.tie.stiffness)
@@ -160,7 +174,7 @@ impl<const D: usize> Faces<D> {
         &self,
         displacement: &[SVector<f64, D>],
     ) -> impl Iterator<Item = (usize, SVector<f64, D>, SVector<f64, D>)> {
-        let tied = self.pairs.iter().filter(|pair| pair.tie.stiffness > 0.0);
+        let tied = self.pairs.iter().filter(|pair| pair.active && pair.tie.stiffness > 0.0);
         tied.map(|pair| (pair.crack, pair.place, pair.tie.jump + pair.way(displacement)))
     }
 }
@@ -177,28 +191,46 @@ impl<const D: usize> Pair<D> {
         let mut force = (tie.jump + way) * -tie.stiffness;
         let mut stiffness = SMatrix::identity() * tie.stiffness;
         let gap = self.gap + n.dot(&way);
-        if gap > 0.0 {
+        if gap > 0.0 && self.changes < UNDECIDED {
             self.state = State::Open;
             return (force, stiffness);
         }
         let kappa = self.penalty;
-        let (push, most) = (-kappa * gap, -kappa * gap * self.friction);
+        let push = -kappa * gap;
         force += n * push;
         stiffness += n * n.transpose() * kappa;
+        // Friction without end times no pressure is none.
+        let most = if push > 0.0 { push * self.friction } else { 0.0 };
         let along = way - n * n.dot(&way);
-        let (length, across) = (along.norm(), SMatrix::identity() - n * n.transpose());
-        if self.friction > 0.0 && (kappa * length <= most || self.friction.is_infinite()) {
-            self.state = State::Stuck;
-            force -= along * kappa;
-            stiffness += across * kappa;
-        } else {
-            self.state = State::Sliding;
-            if most > 0.0 {
-                let t = along / length;
-                force -= t * most;
-                stiffness += (across - t * t.transpose()) * (most / length);
+        self.state = self.friction_of(&along, most);
+        match self.state {
+            State::Stuck => {
+                force -= along * kappa;
+                stiffness += (SMatrix::identity() - n * n.transpose()) * kappa;
             }
+            State::Sliding(direction) => force += direction * most,
+            State::Open => {}
         }
         (force, stiffness)
+    }
+
+    /// Whether faces that touch stick or slide: sticking ones slide when they are held by more than `most` (N), against the
+    /// force that held them; sliding ones stick when they have turned.
+    fn friction_of(&self, along: &SVector<f64, D>, most: f64) -> State<D> {
+        if self.friction == 0.0 {
+            return State::Sliding(SVector::zeros());
+        }
+        match self.state {
+            State::Sliding(direction) if direction.dot(along) <= 0.0 => State::Sliding(direction),
+            State::Sliding(_) => State::Stuck,
+            _ if self.friction.is_infinite() => State::Stuck,
+            _ => {
+                let held = along * -self.penalty;
+                match held.norm() {
+                    length if length > most => State::Sliding(held / length),
+                    _ => State::Stuck,
+                }
+            }
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! a scene and what its ledger says (`drive`), failed particles (`failed`), the notched plate (`plate`) and the tips of
 //! its cracks (`tips`), and pictures.
 
+pub mod apparent_toughness;
 pub mod coating;
 pub mod edge_notch;
 pub mod interacting;
@@ -28,6 +29,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     vec![
         Box::new(uniaxial::Uniaxial),
         Box::new(edge_notch::EdgeNotch),
+        Box::new(apparent_toughness::ApparentToughness),
         Box::new(interacting::InteractingCracks),
         Box::new(coating::Coating),
         Box::new(random_block::RandomBlock),

@@ -102,6 +102,11 @@ impl Plate {
         self.line
     }
 
+    /// Strength in tension, Pa.
+    pub(super) fn strength(&self) -> f64 {
+        self.strength
+    }
+
     /// Whether geometry and loading are those of the document.
     pub(super) fn is_documents(&self) -> bool {
         (self.width, self.height, self.crack) == (0.05, 0.1, 0.025)

@@ -70,6 +70,12 @@ impl Tips {
         })
     }
 
+    /// Energy release rate of a tip over the toughness; NaN where it cannot be measured.
+    pub(super) fn release(&self, scene: &Scene<2>, crack: usize, end: End) -> f64 {
+        let measured = self.criterion.measure(scene, crack, end).ok().flatten();
+        measured.map_or(f64::NAN, |(j, _)| j / self.criterion.toughness)
+    }
+
     /// Asks all tips of a scene, if it is time to, and lets those grow that shall.
     pub(super) fn ask(&mut self, scene: &mut Scene<2>) -> Result<Vec<Grown>, GrowthError> {
         if scene.time() < self.next {

@@ -131,7 +131,9 @@ impl Problem for StressIntensity {
         if quick {
             let coarse = || Overrides::new().set("h", CRACK / 12.5);
             let tips = coarse().sweep("part", [0.0, 0.25, 0.75]);
-            let closed = coarse().set("case", "closed");
+            let closed = Overrides::new()
+                .set("h", CRACK / 8.0)
+                .set("case", "closed");
             return vec![
                 tips,
                 closed.sweep("friction", [0.0, 0.3]),

@@ -114,13 +114,20 @@ fn pull(case: &Parameters) -> Result<Finished, StudyError> {
     let paths = Paths::of(case, &scene, &places)?;
     if explicit {
         for (end, name) in [(End::First, "lower"), (End::Last, "upper")] {
-            let (tip, _) = scene.cracks()[1].tip(end);
+            // Where the tip was when it was put there: the plate has moved since.
+            let placed = scene.cracks()[1].placed();
+            let tip = match end {
+                End::First => placed[0],
+                End::Last => placed[placed.len() - 1],
+            };
             let start = second[usize::from(end == End::Last)];
             row.values
-                .insert(&format!("{name}_growth_mm"), 1e3 * (tip - start).norm());
+                .insert(format!("{name}_growth_mm"), 1e3 * (tip - start).norm());
             let way = tip - start;
             let angle = way.y.abs().atan2(way.x).to_degrees();
-            row.values.insert(&format!("{name}_angle_deg"), angle);
+            row.values.insert(format!("{name}_angle_deg"), angle);
+            let release = tips.release(&scene, 1, end);
+            row.values.insert(format!("{name}_j"), release);
         }
     }
     row.values = energies(row.values, &scene);
