@@ -31,6 +31,7 @@
 //! In the step in which a crack starts its plane is that of the end of the step.
 
 mod circle;
+mod conjugate;
 mod crack;
 mod cracking;
 mod elasticity;
@@ -45,9 +46,11 @@ mod tangent;
 mod tensors;
 #[cfg(test)]
 mod tests;
+mod two_cracks;
 
 use fissure_tensor::{Matrix3, Tangent};
 
+pub use self::conjugate::ConjugateDamage;
 pub use self::crack::AnisotropicDamageState;
 pub use self::incremental::{
     EllipticalDamage, IncrementalDamage, IncrementalState, SteppedCircleDamage,
@@ -55,6 +58,8 @@ pub use self::incremental::{
 pub use self::mixed_mode::MixedMode;
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
+use self::tangent::Measure;
+pub use self::two_cracks::{TwoCrackDamage, TwoCrackState};
 
 use crate::softening::Linear;
 use crate::{
@@ -116,7 +121,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step::<false>(&kinematics, increment, old)?;
-        Ok(self.response(&kinematics, &step, old))
+        Ok(self.response(&kinematics, &step, old, Measure::Turned))
     }
 }
 
@@ -237,11 +242,11 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         let step = self.step::<false>(&kinematics, increment, old)?;
         let response = match self.sound::<false>(increment, old) {
             Some(response) => response,
-            None => self.response(&kinematics, &step, old),
+            None => self.response(&kinematics, &step, old, Measure::Turned),
         };
         Ok((
             response,
-            self.step_tangent::<false>(&kinematics, &step, increment),
+            self.step_tangent::<false>(&kinematics, &step, increment, Measure::Turned),
         ))
     }
 

@@ -57,8 +57,9 @@ impl Biot {
 
     /// Cauchy stress from the stress `T` conjugate to the strain.
     pub fn cauchy(&self, biot_stress: &Sym) -> Sym {
-        let second_piola = solve_lyapunov(&self.stretch, &(*biot_stress * 2.0));
-        second_piola.congruence(&self.deformation_gradient) / self.jacobian
+        self.second_piola(biot_stress)
+            .congruence(&self.deformation_gradient)
+            / self.jacobian
     }
 
     /// The stress `T` conjugate to the strain from the Cauchy stress: `cauchy` inverted.
@@ -76,15 +77,38 @@ impl Biot {
     /// Each column follows a perturbation `d`: `δC = 2FᵀdF`, `δU` from `U·δU + δU·U = δC`,
     /// `δS` from `U·δS + δS·U = 2δT − δU·S − S·δU`, and `c:d = F·δS·Fᵀ/J`.
     pub fn spatial_tangent(&self, biot_stress: &Sym, modulus: &Tangent) -> Tangent {
-        let f = &self.deformation_gradient;
-        let second_piola = solve_lyapunov(&self.stretch, &(*biot_stress * 2.0)).to_matrix();
+        let second_piola = self.second_piola(biot_stress);
         Tangent::from_columns(|d| {
-            let strain_rate = d.congruence(&f.transpose()) * 2.0;
+            let strain_rate = d.congruence(&self.deformation_gradient.transpose()) * 2.0;
             let stretch_rate = solve_lyapunov(&self.stretch, &strain_rate);
-            let coupling = Sym::from_matrix(&(stretch_rate.to_matrix() * second_piola)) * 2.0;
-            let right_side = modulus.apply(&stretch_rate) * 2.0 - coupling;
-            solve_lyapunov(&self.stretch, &right_side).congruence(f) / self.jacobian
+            self.truesdell(&second_piola, &stretch_rate, &modulus.apply(&stretch_rate))
         })
+    }
+
+    /// The same from the rate of `T` with the motion, given the rates of stretch and rotation.
+    pub(crate) fn conjugate_tangent(
+        &self,
+        biot_stress: &Sym,
+        rate: impl Fn(&Sym, &Matrix3<f64>) -> Sym,
+    ) -> Tangent {
+        let second_piola = self.second_piola(biot_stress);
+        Tangent::from_columns(|d| {
+            let (stretch_rate, rotation_rate) = self.rates(d);
+            let stress_rate = rate(&stretch_rate, &rotation_rate);
+            self.truesdell(&second_piola, &stretch_rate, &stress_rate)
+        })
+    }
+
+    fn second_piola(&self, biot_stress: &Sym) -> Sym {
+        solve_lyapunov(&self.stretch, &(*biot_stress * 2.0))
+    }
+
+    /// `F·δS·Fᵀ/J` for rates of `U` and `T`.
+    fn truesdell(&self, second_piola: &Sym, stretch_rate: &Sym, stress_rate: &Sym) -> Sym {
+        let coupling = stretch_rate.to_matrix() * second_piola.to_matrix();
+        let right_side = *stress_rate * 2.0 - Sym::from_matrix(&coupling) * 2.0;
+        solve_lyapunov(&self.stretch, &right_side).congruence(&self.deformation_gradient)
+            / self.jacobian
     }
 
     /// Spatial tangent of a stress `T` that changes along one tensor, by a rate linear in `d`.

@@ -54,8 +54,9 @@ mod viscous_damage;
 mod wrapping;
 
 pub use anisotropic_damage::{
-    AnisotropicDamage, AnisotropicDamageState, DamagePlane, EllipticalDamage, IncrementalDamage,
-    IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+    AnisotropicDamage, AnisotropicDamageState, ConjugateDamage, DamagePlane, EllipticalDamage,
+    IncrementalDamage, IncrementalState, MixedMode, Mode, OrthotropicDamage, SteppedCircleDamage,
+    TwoCrackDamage, TwoCrackState,
 };
 pub use biot::Biot;
 pub use cohesive::{Cohesive, Jump, Traction, TractionSeparation, TractionSeparationState};

@@ -5,8 +5,9 @@
 mod nairn;
 
 use fissure_materials::{
-    AnisotropicDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode, Onset, PlaneStress,
-    SteppedCircleDamage, Vector3, contract::Contract, softening::Linear,
+    AnisotropicDamage, ConjugateDamage, Cracking, EllipticalDamage, Isotropic, MixedMode, Mode,
+    Onset, PlaneStress, SteppedCircleDamage, TwoCrackDamage, Vector3, contract::Contract,
+    softening::Linear,
 };
 use nairn::Exponential;
 
@@ -150,4 +151,36 @@ fn variants_pass_in_plane_stress() {
     let stepped: SteppedCircleDamage = SteppedCircleDamage::new(law());
     passes_shortly(&PlaneStress(stepped), 4);
     passes_shortly(&PlaneStress(elliptical), 5);
+}
+
+/// A second crack starts at once: between one and many steps that makes a difference, and only there.
+#[test]
+fn two_cracks_pass() {
+    for (mixed, onset) in [
+        (MixedMode::Uncoupled, Onset::Tension),
+        (MixedMode::default(), Onset::TensionShear),
+    ] {
+        let law = TwoCrackDamage(AnisotropicDamage {
+            mixed,
+            onset,
+            ..law()
+        });
+        passes(&law);
+        passes_shortly(&PlaneStress(law), 3);
+    }
+}
+
+/// P11 and P18 hold where nothing drops at once.
+#[test]
+fn the_conjugate_stress_passes() {
+    for (mixed, onset) in [
+        (MixedMode::Uncoupled, Onset::Tension),
+        (MixedMode::default(), Onset::TensionShear),
+    ] {
+        passes(&ConjugateDamage(AnisotropicDamage {
+            mixed,
+            onset,
+            ..law()
+        }));
+    }
 }

@@ -8,7 +8,7 @@
 use fissure_materials::{
     AnisotropicDamage, Band, Cracking, DamagePlane, EllipticalDamage, Increment, Isotropic,
     Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, SteppedCircleDamage,
-    Tangent, Vector3, contract::Random, softening::Linear,
+    Tangent, TwoCrackDamage, Vector3, contract::Random, softening::Linear,
 };
 use fissure_tensor::Matrix6;
 
@@ -148,6 +148,18 @@ fn any_step_of_orthotropic_material() {
 fn any_step_of_the_ellipse_and_the_stepped_circle() {
     holds("ellipse", &EllipticalDamage::new(law()), false);
     holds("stepped circle", &SteppedCircleDamage::new(law()), false);
+}
+
+#[test]
+fn any_step_of_two_cracks() {
+    holds("two cracks", &TwoCrackDamage(law()), false);
+    let uncoupled = AnisotropicDamage {
+        mixed: MixedMode::Uncoupled,
+        ..law()
+    };
+    holds("two cracks, uncoupled", &TwoCrackDamage(uncoupled), false);
+    let sheet = PlaneStress(TwoCrackDamage(law()));
+    holds("two cracks, plane stress", &sheet, true);
 }
 
 #[test]

@@ -63,14 +63,14 @@ pub mod prelude {
     pub use fissure_io::table::Table;
     pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
-        AnisotropicDamage, Axis, Biot, Burn, Cohesive, Component, Control, Crack, Cracking,
-        DamagePlane, Decohesive, EllipticalDamage, Entry, Event, EventKind, Expansion, External,
-        GradientLeg, Hencky, Increment, Isotropic, J2, Jump, Jwl, Leg, LoweredStrength, Material,
-        MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode, NeoHookean, Normal, Onset,
-        Orthotropic, OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn, RankineDamage,
-        Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage, SubSteps, Thermal,
-        Traction, TractionSeparation, ViscousDamage, check_parameter, contract, criteria,
-        hardening, localization, multi_crack,
+        AnisotropicDamage, Axis, Biot, Burn, Cohesive, Component, ConjugateDamage, Control, Crack,
+        Cracking, DamagePlane, Decohesive, EllipticalDamage, Entry, Event, EventKind, Expansion,
+        External, GradientLeg, Hencky, Increment, Isotropic, J2, Jump, Jwl, Leg, LoweredStrength,
+        Material, MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode, NeoHookean,
+        Normal, Onset, Orthotropic, OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn,
+        RankineDamage, Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage,
+        SubSteps, Thermal, Traction, TractionSeparation, TwoCrackDamage, ViscousDamage,
+        check_parameter, contract, criteria, hardening, localization, multi_crack,
         multi_crack::{ModeOne, MultiCrack, Planes},
         softening,
     };

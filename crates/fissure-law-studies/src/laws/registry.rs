@@ -53,6 +53,8 @@ pub const LAWS: &[Entry] = &[
     decohesive::GEOLOGICAL,
     anisotropic::ANISOTROPIC,
     anisotropic::IN_PLANE,
+    anisotropic::TWO_CRACKS,
+    anisotropic::CONJUGATE,
     anisotropic::ELLIPTICAL,
     anisotropic::STEPPED,
     anisotropic::ORTHOTROPIC,

@@ -318,7 +318,7 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
     }
 
     /// Whether nothing but friction holds the crack's faces from sliding.
-    fn is_free_to_slide(&self, state: &AnisotropicDamageState) -> bool {
+    pub fn is_free_to_slide(&self, state: &AnisotropicDamageState) -> bool {
         self.is_broken(state) || self.shear.is_spent(state.sheared)
     }
 

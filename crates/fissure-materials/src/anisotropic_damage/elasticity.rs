@@ -36,6 +36,11 @@ impl<const SHEET: bool> Elastic<SHEET> {
         self.lambda + 2.0 * self.shear
     }
 
+    /// `λ/C₁₁`, by which a strain along a plane counts for the demand on it (eq. 9).
+    pub fn lateral_ratio(&self) -> f64 {
+        self.lambda / self.p_wave_modulus()
+    }
+
     #[inline]
     fn trace(strain: &Sym) -> f64 {
         if SHEET {
@@ -75,6 +80,6 @@ impl<const SHEET: bool> Elastic<SHEET> {
 
     /// The effective normal strain `n·C:E·n/C₁₁` of a plane with the strain `along` its normal (eq. 9).
     pub fn normal_demand(&self, strain: &Sym, along: f64) -> f64 {
-        along + self.lambda / self.p_wave_modulus() * (Self::trace(strain) - along)
+        along + self.lateral_ratio() * (Self::trace(strain) - along)
     }
 }

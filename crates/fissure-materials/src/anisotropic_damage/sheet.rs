@@ -10,6 +10,7 @@
 
 use fissure_tensor::{Sym, Tangent};
 
+use super::tangent::Measure;
 use super::{AnisotropicDamage, AnisotropicDamageState};
 use crate::plane_stress::with_thickness;
 use crate::{Biot, Increment, MaterialError, Onset, SheetStep, Softening};
@@ -42,6 +43,19 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         })
     }
 
+    /// The tangent at this stress and thickening, from that at a fixed thickness.
+    pub(super) fn thinned(
+        &self,
+        flat: &Increment,
+        stress: &Sym,
+        thickening: f64,
+        fixed: &Tangent,
+    ) -> Tangent {
+        let elastic = self.elastic.scaled(&flat.external.scale);
+        let per_trace = -elastic.poisson / elastic.young / (1.0 + thickening);
+        thinned(fixed, stress, per_trace)
+    }
+
     pub(super) fn in_sheet(
         &self,
         increment: &Increment,
@@ -62,13 +76,12 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
         let kinematics = Biot::new(&flat.f_new)?;
         let step = self.step::<true>(&kinematics, &flat, old)?;
-        let response = sound.unwrap_or_else(|| self.response(&kinematics, &step, old));
+        let response =
+            sound.unwrap_or_else(|| self.response(&kinematics, &step, old, Measure::Turned));
         let thickening = self.thickening(&flat, &response.stress)?;
         let tangent = with_tangent.then(|| {
-            let fixed = self.step_tangent::<true>(&kinematics, &step, &flat);
-            let elastic = self.elastic.scaled(&flat.external.scale);
-            let per_trace = -elastic.poisson / elastic.young / (1.0 + thickening);
-            thinned(&fixed, &response.stress, per_trace)
+            let fixed = self.step_tangent::<true>(&kinematics, &step, &flat, Measure::Turned);
+            self.thinned(&flat, &response.stress, thickening, &fixed)
         });
         Ok(Some(SheetStep {
             response,

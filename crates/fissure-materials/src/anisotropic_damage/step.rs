@@ -4,7 +4,7 @@ use fissure_tensor::{Sym, Tangent, Vector3};
 
 use super::crack::{CrackAt, Demand, Moved};
 use super::elasticity::Elastic;
-use super::tangent::{self, Start};
+use super::tangent::{self, Measure, Start};
 use super::{AnisotropicDamage, AnisotropicDamageState, NAME};
 use crate::error::{check_below, check_scaled_toughness};
 use crate::rotated::left_strain;
@@ -77,7 +77,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
 
     /// `U − 1 − αΔT 1`, or `V − 1 − αΔT 1` from `V − 1`.
     #[inline]
-    fn mechanical(&self, strain: Sym, increment: &Increment) -> Sym {
+    pub(super) fn mechanical(&self, strain: Sym, increment: &Increment) -> Sym {
         if self.thermal_expansion == 0.0 {
             return strain;
         }
@@ -161,6 +161,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         kinematics: &Biot,
         step: &Step,
         old: &AnisotropicDamageState,
+        measure: Measure,
     ) -> Response<AnisotropicDamageState> {
         // Unloading goes to the origin, so that all strain is recovered but what friction holds.
         let (mut recoverable, mut dissipated, mut state) = (step.strain, 0.0, *old);
@@ -170,7 +171,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
             recoverable -= Sym::dyad_of(&state.normal.into(), &moved.slipped);
         }
         Response {
-            stress: kinematics.turned(&step.biot_stress),
+            stress: measure.stress(kinematics, &step.biot_stress),
             state,
             stored: 0.5 * step.biot_stress.dot(&recoverable),
             dissipated,
@@ -182,11 +183,12 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         kinematics: &Biot,
         step: &Step,
         increment: &Increment,
+        measure: Measure,
     ) -> Tangent {
         let scale = &increment.external.scale;
         let elastic = self.elastic_at::<SHEET>(scale);
         let fixed = |modulus: &Tangent| {
-            kinematics.turned_tangent(&step.biot_stress, |strain_rate, _| {
+            measure.tangent(kinematics, &step.biot_stress, |strain_rate, _| {
                 modulus.apply(strain_rate)
             })
         };
@@ -208,6 +210,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
             weights: *weights,
             in_plane: self.surface::<SHEET>(scale).onset == Onset::InPlane,
             width: moved.state.width,
+            measure,
         }
         .tangent(&step.biot_stress, &modulus)
     }

@@ -6,6 +6,37 @@ use super::crack::{Demand, Moved, Slopes};
 use super::elasticity::Elastic;
 use crate::Biot;
 
+/// How Cauchy's stress follows from `T`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measure {
+    /// `R·T·Rᵀ`.
+    Turned,
+    /// What does the work `T : dU`.
+    Conjugate,
+}
+
+impl Measure {
+    pub fn stress(self, kinematics: &Biot, biot_stress: &Sym) -> Sym {
+        match self {
+            Self::Turned => kinematics.turned(biot_stress),
+            Self::Conjugate => kinematics.cauchy(biot_stress),
+        }
+    }
+
+    /// The spatial tangent from the rate of `T`, given the rates of strain and rotation.
+    pub fn tangent(
+        self,
+        kinematics: &Biot,
+        biot_stress: &Sym,
+        rate: impl Fn(&Sym, &Matrix3<f64>) -> Sym,
+    ) -> Tangent {
+        match self {
+            Self::Turned => kinematics.turned_tangent(biot_stress, rate),
+            Self::Conjugate => kinematics.conjugate_tangent(biot_stress, rate),
+        }
+    }
+}
+
 /// `∂T/∂E` with the crack's plane and band fixed:
 /// `C − (1 − a_n) C₁₁ m⊗m − Σ_t (1 − a_t) G s_t⊗s_t`, `m = C:(n⊗n)/C₁₁`, `s_t = n⊗t + t⊗n`, with
 /// the slopes `a` of the tractions over the virgin ones. This is `C:(1 − Δ)` of eq. 6.
@@ -57,6 +88,7 @@ pub(super) struct Start<'a, const SHEET: bool> {
     /// Whether only the components in the xy plane turn the normal.
     pub in_plane: bool,
     pub width: f64,
+    pub measure: Measure,
 }
 
 impl<const SHEET: bool> Start<'_, SHEET> {
@@ -67,8 +99,8 @@ impl<const SHEET: bool> Start<'_, SHEET> {
             .elastic
             .completed(&self.plane_part(self.strain))
             .spectrum();
-        self.kinematics
-            .turned_tangent(stress, |strain_rate, rotation_rate| {
+        self.measure
+            .tangent(self.kinematics, stress, |strain_rate, rotation_rate| {
                 let normal_rate = self.normal_rate(&spectrum, &self.plane_part(strain_rate));
                 let widening = self.widening(&normal_rate, rotation_rate);
                 modulus.apply(strain_rate) + self.turning(&normal_rate) + widening

@@ -23,6 +23,11 @@ pub(crate) enum Domain {
 /// Grid points that are refined.
 const KEPT: usize = 4;
 
+/// Largest value found of a function of the squares of the components, and where.
+pub(super) fn maximise_on_octant(function: impl Fn(&Vector3<f64>) -> f64) -> (f64, Vector3<f64>) {
+    maximise(function, Domain::Octant, 18)
+}
+
 /// Largest value found and where, with a grid of `parts` steps to the quarter turn.
 pub(crate) fn maximise(
     function: impl Fn(&Vector3<f64>) -> f64,

@@ -27,16 +27,14 @@
 
 use fissure_tensor::{Matrix3, Sym, Vector3};
 
-use super::{Domain, FailureCriterion, canonical, maximise};
+use super::mohr::{OnMohr, largest};
+use super::{FailureCriterion, canonical};
 use crate::{Initiation, MaterialError, Scale, check_parameter};
 
 const NAME: &str = "geological criterion";
 
 /// Least `P`: a mean tension of 1.95 strengths.
 const LEAST_PRESSURE_TERM: f64 = 0.05;
-
-/// Grid steps to the quarter turn in the search for the maximum.
-const PARTS: u32 = 18;
 
 /// Failure in tension, shear and compression with the orientation of the failure plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -308,13 +306,29 @@ impl FailureCriterion for Geological {
         j2 / (self.shear_strength * self.shear_strength) - self.capacity(-self.ratio() * shrunk).0
     }
 
-    /// In the principal axes `F_n` depends on the squares of the normal's components only, so one
-    /// octant is searched, on a grid of 5° and then by refinement.
+    /// `F_n` sees of a plane its normal and its squared traction `q` and `r`: `τ_s² = r − q²`, `S = tr σ − q`,
+    /// `M = r − q tr σ + I₂`.
     fn initiation(&self, stress: &Sym) -> Initiation {
         let spectrum = stress.spectrum();
-        let [first, second, third] = spectrum.values;
-        let principal = Sym::diagonal(first, second, third);
-        let (value, local) = maximise(|n| self.along(&principal, n), Domain::Octant, PARTS);
+        let (trace, second) = (stress.trace(), stress.i2());
+        let (value, squares) = largest(spectrum.values, |q, r| {
+            let plane = OnPlane {
+                normal: q,
+                shear_squared: (r - q * q).max(0.0),
+                lateral_sum: trace - q,
+                lateral_determinant: r - q * trace + second,
+            };
+            let here = self.partials(&plane, 1.0);
+            OnMohr {
+                value: here.value,
+                normal: here.normal
+                    - 2.0 * q * here.shear_squared
+                    - here.lateral_sum
+                    - trace * here.lateral_determinant,
+                squared: here.shear_squared + here.lateral_determinant,
+            }
+        });
+        let local = Vector3::from(squares.map(f64::sqrt));
         let [e, g, h] = spectrum.vectors;
         let (x, y, z) = (e * local.x, g * local.y, h * local.z);
         let normal = canonical([x + y + z, x - y + z, x + y - z, x - y - z]);

@@ -21,6 +21,7 @@
 
 mod directions;
 mod geological;
+mod mohr;
 mod principal;
 #[cfg(test)]
 mod tests;
@@ -31,6 +32,7 @@ use fissure_tensor::{Sym, Vector3};
 
 use crate::{Initiation, MaterialError, Scale};
 
+use directions::maximise_on_octant;
 pub(crate) use directions::{Domain, maximise};
 pub use geological::{Geological, OnPlane, Partials};
 pub use principal::{MohrCoulomb, Rankine, TensionShear, Tresca};

@@ -53,6 +53,11 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
+    /// Whether a small change of a step changes the stress by little.
+    fn continuous(&self) -> bool {
+        true
+    }
+
     /// Whether planes of this kind can be returned together with others.
     fn several(&self) -> bool {
         true

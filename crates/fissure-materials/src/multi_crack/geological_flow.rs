@@ -149,6 +149,53 @@ impl<S: Softening> GeologicalFlow<S> {
         self.surface.shear_strength * capacity.max(0.0).sqrt()
     }
 
+    /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane.
+    fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64) -> f64 {
+        let (mut low, mut high) = (0.0, most);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.surface.along(&(*stress * middle), normal) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        high
+    }
+
+    /// The shear traction at which a failed plane that holds until then starts to slide, on the straight way from
+    /// the tractions of the last step to those of the trial, Pa.
+    fn where_slip_starts(&self, old: &Plane, trial: &Trial) -> Vector3<f64> {
+        let (normal, last) = (old.normal(), Vector3::from(old.traction));
+        let from = normal.dot(&last);
+        let to = trial.normal_traction(old) - trial.normal_stiffness(old) * old.opening;
+        let sheared = last - normal * from;
+        let held = trial.shear_traction(old) - old.slip() * trial.shear_stiffness(old);
+        let at = |part: f64| sheared + (held - sheared) * part;
+        // That of an open plane's pressure, whose root would be none.
+        let round_off = 64.0 * f64::EPSILON * trial.stress.norm();
+        let holds = |part: f64| {
+            let pressure = -(from + (to - from) * part) - round_off;
+            at(part).norm() < self.residual(pressure.max(0.0))
+        };
+        if !holds(0.0) {
+            return sheared;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if holds(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        at(high)
+    }
+
     /// Whether the plane stays as it was.
     fn holds(&self, old: &Plane, trial: &Trial, stress: &Sym) -> bool {
         let plane = OnPlane::new(stress, &old.normal());
@@ -169,6 +216,11 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
 
     /// Planes of shear come in pairs, mirror images in the principal axes.
     fn isotropic(&self) -> bool {
+        false
+    }
+
+    /// Which of two planes starts may turn on a hair, and with friction the shear drops at failure.
+    fn continuous(&self) -> bool {
         false
     }
 
@@ -241,19 +293,17 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         if !(reached.value > 0.0) {
             return reached;
         }
-        let (mut low, mut high, mut normal) = (0.0, 1.0, reached.normal);
-        let mut share = 0.5;
-        for _ in 0..60 {
-            let here = self.surface.initiation(&(*stress * share));
-            if here.value > 0.0 {
-                (high, normal) = (share, here.normal);
-            } else {
-                low = share;
-            }
-            if high - low < 1e-9 * high {
+        // On the plane that was farthest beyond, back to the surface; of that stress the farthest plane, and so on: the
+        // share falls to that at which no plane is beyond, at last by leaps that square.
+        let (mut share, mut normal) = (1.0, reached.normal);
+        for _ in 0..30 {
+            let next = self.share_on_surface(stress, &normal, share);
+            let here = self.surface.initiation(&(*stress * next));
+            let still = next >= share * (1.0 - 4.0 * f64::EPSILON);
+            (share, normal) = (next, here.normal);
+            if still || !(here.value > 0.0) {
                 break;
             }
-            share = 0.5 * (low + high);
         }
         Initiation {
             value: reached.value,
@@ -304,15 +354,20 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
 
     /// `∫ τ·du`. The opening does `∫ τ_nf f_n du` exactly, less the mean of what the normal traction
     /// lacks to `τ_nf f_n` at both ends; the shear the mean of its values at both ends. A plane that
-    /// was not moving starts to move on the surface at its old jump.
+    /// was not moving starts to move on the surface at its old jump, a failed one where it no longer holds.
     fn dissipated(&self, old: &Plane, new: &Plane, trial: &Trial) -> f64 {
-        let slid = (new.slip() - old.slip()).norm();
+        let slip = new.slip() - old.slip();
+        let slid = slip.norm();
         let normal = new.normal();
         let traction = Vector3::from(new.traction);
         let along = normal.dot(&traction);
         let shear = (traction - normal * along).norm();
         if old.failed {
-            return shear * slid;
+            let Some(way) = slip.try_normalize(0.0) else {
+                return 0.0;
+            };
+            let before = way.dot(&self.where_slip_starts(old, trial)).max(0.0);
+            return 0.5 * (before + shear) * slid;
         }
         let opening = Opening {
             law: self,

@@ -326,6 +326,10 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         self.decohesion.isotropic()
     }
 
+    fn continuous(&self) -> bool {
+        self.decohesion.continuous()
+    }
+
     fn density(&self) -> f64 {
         self.elastic.density
     }

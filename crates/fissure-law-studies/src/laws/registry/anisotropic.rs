@@ -62,6 +62,32 @@ pub(super) const IN_PLANE: Entry = Entry {
     build: |values, space| cracking(anisotropic(values, Onset::InPlane), space),
 };
 
+pub(super) const TWO_CRACKS: Entry = Entry {
+    name: "two-crack-damage",
+    about: "the same with a second crack across the first",
+    parameters: PARAMETERS,
+    plane_stress: true,
+    build: |values, space| {
+        cracking(
+            TwoCrackDamage(anisotropic(values, Onset::TensionShear)),
+            space,
+        )
+    },
+};
+
+pub(super) const CONJUGATE: Entry = Entry {
+    name: "conjugate-damage",
+    about: "the same with the stress that does the work",
+    parameters: PARAMETERS,
+    plane_stress: false,
+    build: |values, space| {
+        cracking(
+            ConjugateDamage(anisotropic(values, Onset::TensionShear)),
+            space,
+        )
+    },
+};
+
 pub(super) const ELLIPTICAL: Entry = Entry {
     name: "elliptical-damage",
     about: "the same with two shear damages on an ellipse, not objective, for comparison",
