@@ -67,7 +67,9 @@ impl<'a> SplittingCrack<'a> {
             let is_tip = |end| crack.end(end) == EndState::Tip;
             let line = crack.line().carried(|(i, x)| match i {
                 0 if is_tip(End::First) => x + crack.tip(End::First).1 * (AHEAD * spacing),
-                i if i == last && is_tip(End::Last) => x + crack.tip(End::Last).1 * (AHEAD * spacing),
+                i if i == last && is_tip(End::Last) => {
+                    x + crack.tip(End::Last).1 * (AHEAD * spacing)
+                }
                 _ => *x,
             });
             Self {
@@ -119,7 +121,12 @@ impl<const D: usize> Tie<D> {
 
     /// Impulse on the plus field in a step of length `dt` in which nothing else changes its velocity `free` against the
     /// minus one: that of the force at the end of the step, kg·m/s.
-    pub(crate) fn impulse(&self, free: &SVector<f64, D>, reduced_mass: f64, dt: f64) -> SVector<f64, D> {
+    pub(crate) fn impulse(
+        &self,
+        free: &SVector<f64, D>,
+        reduced_mass: f64,
+        dt: f64,
+    ) -> SVector<f64, D> {
         let k = self.stiffness;
         (self.jump + free * dt) * (-k * dt / (1.0 + k * dt * dt / reduced_mass))
     }
@@ -145,7 +152,13 @@ impl<const D: usize> Release<D> {
     }
 
     /// The spring that a crack leaves at a node.
-    pub(crate) fn tie(&self, scene: &Scene<D>, grid: &Grid<D>, crack: usize, x: &SVector<f64, D>) -> Tie<D> {
+    pub(crate) fn tie(
+        &self,
+        scene: &Scene<D>,
+        grid: &Grid<D>,
+        crack: usize,
+        x: &SVector<f64, D>,
+    ) -> Tie<D> {
         let line = &scene.cracks()[crack];
         let share = released(line, &plane(x), grid.spacing());
         if !(share < 1.0) {
@@ -219,9 +232,7 @@ fn looked_at(crack: &CrackLine) -> Vector2<f64> {
 fn thickness<const D: usize>(scene: &Scene<D>, crack: &CrackLine) -> f64 {
     match scene.kinematics() {
         Kinematics::PlaneStrain { thickness } | Kinematics::PlaneStress { thickness } => thickness,
-        Kinematics::Axisymmetric => {
-            std::f64::consts::TAU * looked_at(crack).x
-        }
+        Kinematics::Axisymmetric => std::f64::consts::TAU * looked_at(crack).x,
         Kinematics::Solid => 0.0,
     }
 }
@@ -232,7 +243,9 @@ fn modulus<const D: usize>(scene: &Scene<D>, crack: &CrackLine) -> f64 {
     let deforms = |body: &&Body<D>| !body.particles().is_empty() && body.wave_speed() > 0.0;
     let distance = |body: &Body<D>| {
         let places = body.motion().position.iter();
-        places.map(|x| (plane(x) - tip).norm_squared()).fold(f64::INFINITY, f64::min)
+        places
+            .map(|x| (plane(x) - tip).norm_squared())
+            .fold(f64::INFINITY, f64::min)
     };
     let bodies: Vec<&Body<D>> = scene.bodies().iter().filter(deforms).collect();
     let nearest = match bodies[..] {

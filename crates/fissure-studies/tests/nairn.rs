@@ -124,7 +124,11 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
     // Each failed row takes the toughness.
     assert!((value("spent_by_failed") / value("failed_rows") - 1.0).abs() < 0.1);
     assert!(value("spent_by_wake") > 0.1 && value("spent_by_wake") < 1.0);
-    assert!(value("far_j_at_onset") > value("spent_by_failed"), "{}", rows[0]);
+    assert!(
+        value("far_j_at_onset") > value("spent_by_failed"),
+        "{}",
+        rows[0]
+    );
 }
 
 #[test]

@@ -145,7 +145,10 @@ impl<const D: usize> Links<D> {
         }
         let reached: HashSet<u32> = self.nodes.iter().copied().collect();
         let joined = std::mem::take(&mut self.joined);
-        for pair in joined.iter().filter(|pair| pair.iter().all(|node| reached.contains(node))) {
+        for pair in joined
+            .iter()
+            .filter(|pair| pair.iter().all(|node| reached.contains(node)))
+        {
             self.nodes.extend_from_slice(pair);
             self.node_starts.push(self.nodes.len() as u32);
         }

@@ -120,7 +120,9 @@ impl<const D: usize> Faces<D> {
     /// The nodes that are joined.
     pub(super) fn joined(&self) -> Vec<[u32; 2]> {
         let pairs = self.pairs.iter();
-        pairs.map(|pair| pair.nodes.map(|node| node as u32)).collect()
+        pairs
+            .map(|pair| pair.nodes.map(|node| node as u32))
+            .collect()
     }
 
     /// Adds the forces that these displacements call for to those at the nodes, and lists their derivatives.
@@ -174,8 +176,17 @@ impl<const D: usize> Faces<D> {
         &self,
         displacement: &[SVector<f64, D>],
     ) -> impl Iterator<Item = (usize, SVector<f64, D>, SVector<f64, D>)> {
-        let tied = self.pairs.iter().filter(|pair| pair.active && pair.tie.stiffness > 0.0);
-        tied.map(|pair| (pair.crack, pair.place, pair.tie.jump + pair.way(displacement)))
+        let tied = self
+            .pairs
+            .iter()
+            .filter(|pair| pair.active && pair.tie.stiffness > 0.0);
+        tied.map(|pair| {
+            (
+                pair.crack,
+                pair.place,
+                pair.tie.jump + pair.way(displacement),
+            )
+        })
     }
 }
 
@@ -186,7 +197,10 @@ impl<const D: usize> Pair<D> {
     }
 
     /// Force on the plus field, N, and its derivative with the sign turned, N/m.
-    fn answer(&mut self, displacement: &[SVector<f64, D>]) -> (SVector<f64, D>, SMatrix<f64, D, D>) {
+    fn answer(
+        &mut self,
+        displacement: &[SVector<f64, D>],
+    ) -> (SVector<f64, D>, SMatrix<f64, D, D>) {
         let (way, n, tie) = (self.way(displacement), self.normal, self.tie);
         let mut force = (tie.jump + way) * -tie.stiffness;
         let mut stiffness = SMatrix::identity() * tie.stiffness;
@@ -200,7 +214,11 @@ impl<const D: usize> Pair<D> {
         force += n * push;
         stiffness += n * n.transpose() * kappa;
         // Friction without end times no pressure is none.
-        let most = if push > 0.0 { push * self.friction } else { 0.0 };
+        let most = if push > 0.0 {
+            push * self.friction
+        } else {
+            0.0
+        };
         let along = way - n * n.dot(&way);
         self.state = self.friction_of(&along, most);
         match self.state {

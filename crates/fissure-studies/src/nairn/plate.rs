@@ -155,7 +155,11 @@ impl Plate {
             softening: softening::Linear,
         };
         // Of pure mode I shear is no part.
-        let shear = if mixed { mode(1.0, 1.0) } else { mode(1e3, 1e6) };
+        let shear = if mixed {
+            mode(1.0, 1.0)
+        } else {
+            mode(1e3, 1e6)
+        };
         let mut law = AnisotropicDamage::new(self.elastic, mode(1.0, 1.0), shear);
         law.onset = Onset::InPlane;
         let half = 0.5 * self.height;

@@ -131,9 +131,7 @@ impl Problem for StressIntensity {
         if quick {
             let coarse = || Overrides::new().set("h", CRACK / 12.5);
             let tips = coarse().sweep("part", [0.0, 0.25, 0.75]);
-            let closed = Overrides::new()
-                .set("h", CRACK / 8.0)
-                .set("case", "closed");
+            let closed = Overrides::new().set("h", CRACK / 8.0).set("case", "closed");
             return vec![
                 tips,
                 closed.sweep("friction", [0.0, 0.3]),
@@ -279,7 +277,7 @@ fn from_faces(outcome: &mut Outcome, exact: [f64; 2]) -> Result<(), MeasureError
     for (name, found, exact) in [("k1", found.k1, exact[0]), ("k2", found.k2, exact[1])] {
         outcome.errors.insert(name, ((found - exact) / scale).abs());
         outcome.values.insert(name, found);
-        outcome.values.insert(&format!("{name}_exact"), exact);
+        outcome.values.insert(format!("{name}_exact"), exact);
     }
     Ok(())
 }
@@ -301,9 +299,7 @@ fn profile(outcome: &mut Outcome) {
         volume += 0.5 * (pair[0].opening + pair[1].opening) * (pair[1].distance - pair[0].distance);
     }
     let exact_volume = 0.5 * PI * most * half * half;
-    outcome
-        .errors
-        .insert("opening", (square / scale).sqrt());
+    outcome.errors.insert("opening", (square / scale).sqrt());
     outcome
         .errors
         .insert("volume", (volume / exact_volume - 1.0).abs());

@@ -91,7 +91,14 @@ fn closed(
     let (sine, cosine) = angle.sin_cos();
     let sliding = (sine * cosine - friction * cosine * cosine).max(0.0);
     let k = [0.0, -STRESS * (PI * a).sqrt() * sliding];
-    square(a, angle, h, move |t| -load(t), ContactLaw::Coulomb { friction }, k)
+    square(
+        a,
+        angle,
+        h,
+        move |t| -load(t),
+        ContactLaw::Coulomb { friction },
+        k,
+    )
 }
 
 fn square(

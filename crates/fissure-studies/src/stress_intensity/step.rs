@@ -33,7 +33,10 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
     let (width, height) = (2.0 * CRACK, 2.0 * CRACK);
     let mut scene = scene(a, width, height, h).map_err(StudyError::failed("building the plate"))?;
     let margin = 4.0 * h;
-    let (low, high) = ([-margin, -height - margin], [width + margin, height + margin]);
+    let (low, high) = (
+        [-margin, -height - margin],
+        [width + margin, height + margin],
+    );
     let grid = Grid::over(low, high, h).map_err(StudyError::failed("making the grid"))?;
     let (e, nu) = (STEEL.young, STEEL.poisson);
     let wave = (e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu) * STEEL.density)).sqrt();

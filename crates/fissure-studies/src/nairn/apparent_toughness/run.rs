@@ -35,7 +35,8 @@ fn pull(case: &Parameters) -> Result<(SimulationRow, Option<String>), StudyError
         .body(BODY)
         .map(Places::of)
         .ok_or_else(|| StudyError::failed("finding the plate")("no such body"))?;
-    let (mut rates, mut release, mut onset, mut length) = (Rates::default(), f64::NAN, f64::NAN, 0.0);
+    let (mut rates, mut release, mut onset, mut length) =
+        (Rates::default(), f64::NAN, f64::NAN, 0.0);
     let far = plate.measured().1;
     let done = drive(&mut scene, solver.as_mut(), end, |scene, report| {
         let Some(body) = scene.body(BODY) else {
@@ -104,6 +105,13 @@ fn failed_share(scene: &Scene<2>, places: &Places<2>, plate: &Plate, length: f64
             by_failed += volume * energy;
         }
     }
-    let count = places.failed(body).iter().filter(|x| plate.is_ahead(x)).count();
-    (by_failed / all, count as f64 / (length / (0.5 * plate.spacing)))
+    let count = places
+        .failed(body)
+        .iter()
+        .filter(|x| plate.is_ahead(x))
+        .count();
+    (
+        by_failed / all,
+        count as f64 / (length / (0.5 * plate.spacing)),
+    )
 }

@@ -19,7 +19,13 @@ pub(super) fn parameters() -> Vec<Parameter> {
     parameters.extend(Tips::parameters("straight"));
     parameters.extend([
         StressMeasure::parameter(),
-        Parameter::number("toughness", "in opening", "J/m2", 600.0, Permitted::above(0.0)),
+        Parameter::number(
+            "toughness",
+            "in opening",
+            "J/m2",
+            600.0,
+            Permitted::above(0.0),
+        ),
         Parameter::choice(
             "notch",
             "under damage: a cell row left out, or failed from the start, or a line",

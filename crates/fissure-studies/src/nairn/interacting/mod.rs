@@ -41,7 +41,13 @@ impl Study for InteractingCracks {
         parameters.extend([
             StressMeasure::parameter(),
             Parameter::number("toughness", "in opening", "J/m2", 2000.0, positive()),
-            Parameter::number("second", "length of the second crack", "m", 0.02, positive()),
+            Parameter::number(
+                "second",
+                "length of the second crack",
+                "m",
+                0.02,
+                positive(),
+            ),
             Parameter::number("place", "of the second crack", "m", 0.0375, positive()),
             Parameter::number("end", "of the run", "s", 2e-4, positive()),
         ]);
@@ -50,7 +56,9 @@ impl Study for InteractingCracks {
 
     fn default_cases(&self, settings: &Overrides, quick: bool) -> Vec<Overrides> {
         let explicit = Overrides::new();
-        let damage = Overrides::new().set("mode", "damage").set("toughness", 600.0);
+        let damage = Overrides::new()
+            .set("mode", "damage")
+            .set("toughness", 600.0);
         if quick {
             // Half the plate, a coarser grid, a fast pull.
             return vec![
