@@ -283,19 +283,19 @@ impl<const D: usize> Meetings<D> {
             .sum()
     }
 
-    /// Jumps of the nodes that are held by springs after a step with these velocities: crack, place (m), and how far the
+    /// Jumps of the nodes that are held by springs after a step that strains with these velocities: crack, place (m), and how far the
     /// plus field is from the minus one (m).
     pub(crate) fn tied<'s>(
         &'s self,
         place: impl Fn(usize) -> SVector<f64, D> + 's,
-        end: &'s Field,
+        straining: &'s Field,
         dt: f64,
     ) -> impl Iterator<Item = (usize, SVector<f64, D>, SVector<f64, D>)> + 's {
         let tied = self.meetings.iter().filter(|m| m.tie.stiffness > 0.0);
         tied.filter_map(move |meeting| {
             let (crack, sign) = meeting.faces()?;
             let [a, b] = meeting.nodes;
-            let jump = meeting.tie.jump + (vector::<D>(&end[b]) - vector(&end[a])) * dt;
+            let jump = meeting.tie.jump + (vector::<D>(&straining[b]) - vector(&straining[a])) * dt;
             Some((crack, place(a), jump * sign))
         })
     }

@@ -251,7 +251,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
 
         // Everything succeeded: the trial becomes the present.
         let place = |node| placement.node_position(grid, node);
-        release.keep(grid, meetings.tied(place, &nodes.end, dt));
+        // Springs are strained as the particles are.
+        let straining = match stress_update {
+            StressUpdate::Last => &nodes.end,
+            StressUpdate::First | StressUpdate::Musl => &nodes.straining,
+        };
+        release.keep(grid, meetings.tied(place, straining, dt));
         cracks.accept(scene, placement);
         for body in scene.bodies_mut() {
             body.commit()?;
