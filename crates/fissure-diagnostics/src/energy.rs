@@ -4,7 +4,7 @@ use fissure_scene::EnergyTotals;
 
 /// The energy ledger of a scene and the three identities that it keeps apart.
 ///
-/// 1. `W_ext = ΔK_grid + f_int·Δu + contact`, step by step: the equations of motion of the grid. Holds to
+/// 1. `W_ext = ΔK_grid + f_int·Δu + contact + stabilisation`, step by step: the equations of motion of the grid. Holds to
 ///    round-off in explicit steps; [`worst_balance`](Self::worst_balance) is by how much it did not.
 /// 2. `f_int·Δu = Δψ + ΔD` (and the work of artificial viscosity): the laws. Holds to first order
 ///    in the step, for a law whose stress is the derivative of its stored energy;
@@ -35,9 +35,11 @@ pub struct EnergyBalance {
     pub viscous: f64,
     /// Energy that contacts took: friction and impacts, J.
     pub contact: f64,
+    /// Work against the forces that stabilise quasi-static steps, J.
+    pub stabilisation: f64,
     /// K_particles: kinetic energy of the particles now, J.
     pub kinetic: f64,
-    /// Σ ΔK_grid = W_ext − Σ f_int·Δu − contact: what the steps gave to the grid as kinetic energy, J. In a
+    /// Σ ΔK_grid = W_ext − Σ f_int·Δu − contact − stabilisation: what the steps gave to the grid as kinetic energy, J. In a
     /// quasi-static run, which has none, it is the error of the first identity.
     pub grid_kinetic_gain: f64,
     /// Σ (K_grid − K_particles) after the steps less the same before them: kinetic energy lost
@@ -61,8 +63,12 @@ impl EnergyBalance {
             dissipated: totals.dissipated,
             viscous: totals.viscous,
             contact: totals.contact,
+            stabilisation: totals.stabilisation,
             kinetic: totals.kinetic,
-            grid_kinetic_gain: totals.external - totals.internal - totals.contact,
+            grid_kinetic_gain: totals.external
+                - totals.internal
+                - totals.contact
+                - totals.stabilisation,
             transfer_loss: totals.transfer_loss,
             imbalance: totals.imbalance(),
             worst_balance: totals.worst_balance,

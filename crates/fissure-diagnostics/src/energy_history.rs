@@ -39,13 +39,14 @@ pub struct EnergyHistory {
 /// A column of the history: its label and what it takes from a ledger.
 type Column = (&'static str, fn(&EnergyTotals) -> f64);
 
-const COLUMNS: [Column; 10] = [
+const COLUMNS: [Column; 11] = [
     ("external [J]", |e| e.external),
     ("internal [J]", |e| e.internal),
     ("stored [J]", |e| e.stored),
     ("dissipated [J]", |e| e.dissipated),
     ("viscous [J]", |e| e.viscous),
     ("contact [J]", |e| e.contact),
+    ("stabilisation [J]", |e| e.stabilisation),
     ("kinetic [J]", |e| e.kinetic),
     ("transfer loss [J]", |e| e.transfer_loss),
     ("imbalance [J]", EnergyTotals::imbalance),

@@ -1,21 +1,19 @@
-//! One number per axis of space, all axes at once.
+//! Several numbers at once: one per axis of space, or one per particle of eight.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Places for axes: one more than space has, so that a vector unit takes all at once.
 pub(crate) const AXES: usize = 4;
 
-/// A number for each axis; those of axes that space has not are not used. Loops of fixed length without branches, which
-/// the compiler turns into vector instructions.
+/// A number for each axis; those of axes that space has not are not used.
+pub(crate) type Axes = Numbers<AXES>;
+
+/// Numbers that the same is done to. Loops of fixed length without branches, which the compiler turns into vector
+/// instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Axes(pub [f64; AXES]);
+pub(crate) struct Numbers<const N: usize>(pub [f64; N]);
 
 impl Axes {
-    #[inline(always)]
-    pub(crate) fn splat(x: f64) -> Self {
-        Self([x; AXES])
-    }
-
     #[inline(always)]
     pub(crate) fn from_axes<const D: usize>(number: impl Fn(usize) -> f64) -> Self {
         let mut axes = [0.0; AXES];
@@ -23,6 +21,13 @@ impl Axes {
             *to = number(axis);
         }
         Self(axes)
+    }
+}
+
+impl<const N: usize> Numbers<N> {
+    #[inline(always)]
+    pub(crate) fn splat(x: f64) -> Self {
+        Self([x; N])
     }
 
     #[inline(always)]
@@ -63,9 +68,15 @@ impl Axes {
     pub(crate) fn step(self, limit: f64) -> Self {
         self.each(|x| if x >= limit { 1.0 } else { 0.0 })
     }
+
+    /// 1 where between the limits or at one, else 0; also for what is no number.
+    #[inline(always)]
+    pub(crate) fn within(self, low: f64, high: f64) -> Self {
+        self.each(|x| if (x >= low) & (x <= high) { 1.0 } else { 0.0 })
+    }
 }
 
-impl Add for Axes {
+impl<const N: usize> Add for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -73,7 +84,7 @@ impl Add for Axes {
     }
 }
 
-impl Sub for Axes {
+impl<const N: usize> Sub for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -81,7 +92,7 @@ impl Sub for Axes {
     }
 }
 
-impl Mul for Axes {
+impl<const N: usize> Mul for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -89,7 +100,7 @@ impl Mul for Axes {
     }
 }
 
-impl Mul<f64> for Axes {
+impl<const N: usize> Mul<f64> for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -97,7 +108,7 @@ impl Mul<f64> for Axes {
     }
 }
 
-impl Add<f64> for Axes {
+impl<const N: usize> Add<f64> for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, term: f64) -> Self {
@@ -105,7 +116,7 @@ impl Add<f64> for Axes {
     }
 }
 
-impl Neg for Axes {
+impl<const N: usize> Neg for Numbers<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {

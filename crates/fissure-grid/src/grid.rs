@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::GridError;
-use crate::axes::Axes;
+use crate::axes::{Axes, Numbers};
 
 /// Largest number of cells along an axis.
 const MOST_CELLS: i32 = 1 << 20;
@@ -99,7 +99,12 @@ impl<const D: usize> Grid<D> {
     /// Whether a point is in the box, faces included; false for NaN.
     #[inline(always)]
     pub fn contains(&self, x: &SVector<f64, D>) -> bool {
-        (0..D).all(|axis| x[axis] >= self.origin[axis] && x[axis] <= self.top[axis])
+        // Without branches, so that many points are asked about at once.
+        let mut inside = true;
+        for axis in 0..D {
+            inside &= (x[axis] >= self.origin[axis]) & (x[axis] <= self.top[axis]);
+        }
+        inside
     }
 
     /// The cell that owns a point and the point's coordinate in it, [0, 1) in cells (1 on the grid's upper face). None if
@@ -123,12 +128,33 @@ impl<const D: usize> Grid<D> {
     #[inline(always)]
     pub(crate) fn cell_and_local(&self, x: &SVector<f64, D>) -> (Axes, Axes) {
         let from_origin = Axes::from_axes::<D>(|axis| x[axis] - self.origin[axis]);
-        let scaled = from_origin * self.inverse;
         let last = Axes::from_axes::<D>(|axis| f64::from(self.cells[axis] - 1));
-        let cell = last.min(scaled.floor().max(Axes::splat(0.0)));
+        self.cells_and_locals(from_origin, last)
+    }
+
+    /// The same along one axis for several coordinates.
+    #[inline(always)]
+    pub(crate) fn along<const N: usize>(
+        &self,
+        axis: usize,
+        x: Numbers<N>,
+    ) -> (Numbers<N>, Numbers<N>) {
+        let last = Numbers::splat(f64::from(self.cells[axis] - 1));
+        self.cells_and_locals(x + -self.origin[axis], last)
+    }
+
+    #[inline(always)]
+    fn cells_and_locals<const N: usize>(
+        &self,
+        from_origin: Numbers<N>,
+        last: Numbers<N>,
+    ) -> (Numbers<N>, Numbers<N>) {
+        let scaled = from_origin * self.inverse;
+        let cell = last.min(scaled.floor().max(Numbers::splat(0.0)));
         let local = scaled - cell;
         // Its number comes last, so that what is none stays so.
-        (cell, Axes::splat(1.0).min(Axes::splat(0.0).max(local)))
+        let local = Numbers::splat(1.0).min(Numbers::splat(0.0).max(local));
+        (cell, local)
     }
 }
 

@@ -13,7 +13,8 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Grid, Stencil};
+use crate::simd::EIGHT;
+use crate::{Grid, Stencil, Stencils};
 
 mod bspline;
 mod cpdi;
@@ -29,6 +30,8 @@ pub use linear::Linear;
 pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static {
     /// The weights of one particle.
     type Stencil: Stencil<D>;
+    /// The weights of eight; [`OneByOne`](crate::OneByOne) serves any shape.
+    type Stencils: Stencils<D>;
 
     /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3".
     fn name(&self) -> &'static str;
@@ -53,6 +56,16 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil>;
+
+    /// Weights of eight particles of a tile, with the domain of each place; as [`stencil`](Self::stencil). A shape whose
+    /// domain is always the initial one may ask for that of place 0 alone.
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils;
 
     /// How far the nodes lie from the lower node of the particle's cell, along an axis: (nodes below it, nodes above it),
     /// so (0, 1) for linear functions.

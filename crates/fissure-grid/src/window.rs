@@ -50,6 +50,14 @@ const fn table<const N: usize>(dimensions: usize) -> [(u8, u8); N] {
     map
 }
 
+/// Where the sums of a window entry stand in an array of [`sums_entry`]`(8^D)`: a layer of space takes one place more than
+/// it has nodes. Else the nodes of a stencil in several layers would lie 4096 bytes apart, and a processor takes the
+/// reading of one for the writing of another.
+#[inline(always)]
+pub const fn sums_entry(entry: usize) -> usize {
+    entry + entry / (WINDOW * WINDOW) as usize
+}
+
 /// Grid index of a window entry's node; `entry` is below 8^D.
 #[inline]
 pub fn window_node<const D: usize>(tile: [i32; D], entry: usize) -> [i32; D] {

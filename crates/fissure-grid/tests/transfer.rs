@@ -1,7 +1,9 @@
 //! Gathering and scattering against the plain sum over visited nodes, for every shape, vector unit and dimension.
 
-use fissure_grid::simd::{Lanes, Simd, SimdTask};
-use fissure_grid::{FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, shape};
+use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
+use fissure_grid::{
+    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape, sums_entry,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Numbers without a pattern, in [-1, 1].
@@ -11,20 +13,28 @@ fn noise(seed: usize) -> f64 {
 }
 
 struct Both<'a, S, const D: usize> {
-    stencil: &'a S,
+    stencils: &'a S,
+    place: usize,
     field: &'a [f64],
     gift: &'a Gift<D>,
     sums: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Stencil<D>, const D: usize> SimdTask for Both<'_, S, D> {
-    type Output = Gathered<D>;
+impl<S: Stencils<D>, const D: usize> SimdTask for Both<'_, S, D> {
+    type Output = Gathered<[f64; FIELD], D>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Gathered<D> {
-        self.stencil
-            .scatter::<L, true, true>(lanes, self.gift, self.sums);
-        self.stencil.gather::<L, true, true>(lanes, self.field)
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+        self.stencils
+            .scatter::<L, true>(lanes, self.place, self.gift, self.sums);
+        let found = self
+            .stencils
+            .gather::<L, true, true>(lanes, self.place, self.field);
+        Gathered {
+            value: lanes.store4(found.value),
+            gradient: found.gradient.map(|four| lanes.store4(four)),
+            moment: found.moment.map(|four| lanes.store4(four)),
+        }
     }
 }
 
@@ -34,8 +44,12 @@ fn plain<S: Stencil<D>, const D: usize>(
     field: &[f64],
     gift: &Gift<D>,
     sums: &mut [[f64; SUMS]],
-) -> Gathered<D> {
-    let mut found = Gathered::default();
+) -> Gathered<[f64; FIELD], D> {
+    let mut found = Gathered {
+        value: [0.0; FIELD],
+        gradient: [[0.0; FIELD]; D],
+        moment: [[0.0; FIELD]; D],
+    };
     stencil.visit(|window, weight, gradient| {
         let arm = stencil.arm(window);
         for c in 0..FIELD {
@@ -46,10 +60,15 @@ fn plain<S: Stencil<D>, const D: usize>(
                 found.moment[a][c] += weight * arm[a] * v;
             }
         }
-        for (c, sum) in sums[window].iter_mut().enumerate() {
+        for (c, sum) in sums[sums_entry(window)].iter_mut().enumerate() {
             *sum += weight * gift.value[c];
             for a in 0..D {
-                *sum += gradient[a] * gift.gradient[a][c] + weight * arm[a] * gift.moment[a][c];
+                let factor = if c < FIELD {
+                    weight * arm[a]
+                } else {
+                    gradient[a]
+                };
+                *sum += gift.sloped[a][c] * factor;
             }
         }
     });
@@ -62,25 +81,41 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
     let field: Vec<f64> = (0..(window + 1) * FIELD).map(noise).collect();
     let gift = Gift {
         value: std::array::from_fn(|c| noise(c + 1000)),
-        gradient: std::array::from_fn(|a| std::array::from_fn(|c| 0.1 * noise(c + 2000 + 10 * a))),
-        moment: std::array::from_fn(|a| std::array::from_fn(|c| 9.0 * noise(c + 3000 + 10 * a))),
+        sloped: std::array::from_fn(|a| {
+            std::array::from_fn(|c| {
+                let size = if c < FIELD { 9.0 } else { 0.1 };
+                size * noise(c + 2000 + 10 * a)
+            })
+        }),
     };
     let domain = SMatrix::<f64, D, D>::identity() * 0.06;
-    for place in 0..200 {
+    for eight in 0..25 {
         // Tile 1 holds 1.0 to 2.0.
-        let x = SVector::from_fn(|axis, _| 1.5 + 0.499 * noise(7 * place + axis));
+        let at =
+            |particle: usize| SVector::from_fn(|axis, _| 1.5 + 0.499 * noise(7 * particle + axis));
+        let mut all: [SVector<f64, D>; EIGHT] = std::array::from_fn(|place| at(8 * eight + place));
+        let place = eight % EIGHT;
         let stencil = shape
-            .stencil(&grid, [1; D], &x, &domain)
+            .stencil(&grid, [1; D], &all[place], &domain)
             .ok_or("no stencil")?;
+        // One that is off the grid and one in another tile do not disturb the others.
+        all[(place + 1) % EIGHT] = SVector::repeat(-1.0);
+        all[(place + 2) % EIGHT] = SVector::repeat(2.9);
+        let stencils = shape.stencils(&grid, [1; D], &all, |_| domain);
+        for other in 0..EIGHT {
+            let fits = other != (place + 1) % EIGHT && other != (place + 2) % EIGHT;
+            assert_eq!(stencils.fits(other), fits, "{}: {other}", shape.name());
+        }
         for name in ["plain", "avx2", "avx512"] {
             let Some(unit) = Simd::named(name) else {
                 continue;
             };
-            let mut exact_sums = vec![[0.5; SUMS]; window];
+            let mut exact_sums = vec![[0.5; SUMS]; sums_entry(window)];
             let mut sums = exact_sums.clone();
             let exact = plain(&stencil, &field, &gift, &mut exact_sums);
             let found = unit.run(Both {
-                stencil: &stencil,
+                stencils: &stencils,
+                place,
                 field: &field,
                 gift: &gift,
                 sums: &mut sums,

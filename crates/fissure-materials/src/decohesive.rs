@@ -18,7 +18,7 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale, Softening,
+    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale, Softening,
     check_parameter,
     error::{check_below, check_scaled_toughness},
     softening::{Linear, opening},
@@ -358,6 +358,44 @@ impl<S: Softening> Point<'_, S> {
             stored: 0.5 * step.biot_stress.dot(&elastic_strain),
             dissipated,
         }
+    }
+}
+
+impl<S: Softening> Extrapolated for Decohesive<S> {
+    const NAMES_WITH_GAP: &'static [&'static str] =
+        &["opening", "softened", "failed", "implex_gap"];
+
+    /// The opening goes on, not below zero; that of a failed crack, which moves freely, is found from the strain.
+    fn frozen(
+        &self,
+        increment: &Increment,
+        before: &DecohesiveState,
+        now: &DecohesiveState,
+        ratio: f64,
+    ) -> Result<(Sym, Tangent), MaterialError> {
+        let point = self.point(&increment.external.scale);
+        let kinematics = Biot::new(&increment.f_new)?;
+        let mut stress = point.elastic.stress(&kinematics.strain());
+        let mut modulus = point.elastic.stiffness();
+        if now.width > 0.0 {
+            let normal = Vector3::from(now.normal);
+            let direction = point.elastic.stress(&Sym::dyad(&normal));
+            let mut opening = (now.opening + ratio * (now.opening - before.opening)).max(0.0);
+            if now.failed {
+                let mut state = *now;
+                if point
+                    .open(&mut state, stress.normal_component(&normal))
+                    .is_some()
+                {
+                    let softer = 1.0 / point.elastic.p_wave_modulus();
+                    modulus = modulus - Tangent::dyad(&direction, &direction) * softer;
+                }
+                opening = state.opening;
+            }
+            stress -= direction * (opening / now.width);
+        }
+        let tangent = kinematics.spatial_tangent(&stress, &modulus);
+        Ok((kinematics.cauchy(&stress), tangent))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What hyperelastic laws on the left Cauchy-Green tensor need, without cancellation near rest.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use fissure_tensor::{Matrix3, Sym};
 
@@ -27,24 +27,54 @@ impl LeftStrain {
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
     #[inline(always)]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
-        let determinant = f.determinant();
-        let h = f - Matrix3::identity();
-        let second = h.m11 * h.m22 - h.m12 * h.m21 + h.m22 * h.m33 - h.m23 * h.m32 + h.m33 * h.m11
-            - h.m31 * h.m13;
-        let third = h.determinant();
-        let dilation = h.trace() + second + third;
-        let square = h.norm_squared();
+        let (strain, sound) = Self::of_rows([
+            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
+        ]);
+        if sound {
+            Ok(strain)
+        } else {
+            let determinant = f.determinant();
+            Err(MaterialError::Deformation { determinant })
+        }
+    }
+
+    /// Of the deformation gradient with these components, row by row, and whether it is finite with
+    /// positive determinant; without branches.
+    #[inline(always)]
+    pub fn of_rows([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> (Self, bool) {
+        let determinant =
+            xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
+        let (xx, yy, zz) = (xx - 1.0, yy - 1.0, zz - 1.0);
+        let second = (xx * yy - xy * yx) + (yy * zz - yz * zy) + (zz * xx - zx * xz);
+        let third = xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
+        let dilation = xx + yy + zz + second + third;
+        let rows = [
+            xx * xx + xy * xy + xz * xz,
+            yx * yx + yy * yy + yz * yz,
+            zx * zx + zy * zy + zz * zz,
+        ];
+        let square = rows[0] + rows[1] + rows[2];
         // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
         // or less while the other is not. A component that is not finite makes the square so.
-        let sound = determinant > 0.0 && determinant.is_finite() && dilation > -1.0;
-        if !(sound && square.is_finite()) {
-            return Err(MaterialError::Deformation { determinant });
-        }
-        Ok(Self {
-            excess: Sym::from_matrix(&h) * 2.0 + Sym::from_matrix(&(h * h.transpose())),
+        let sound = (determinant > 0.0)
+            & (determinant < f64::INFINITY)
+            & (dilation > -1.0)
+            & (square < f64::INFINITY);
+        let strain = Self {
+            excess: Sym {
+                mandel: [
+                    2.0 * xx + rows[0],
+                    2.0 * yy + rows[1],
+                    2.0 * zz + rows[2],
+                    SQRT_2 * (yz + zy + (yx * zx + yy * zy + yz * zz)),
+                    SQRT_2 * (xz + zx + (xx * zx + xy * zy + xz * zz)),
+                    SQRT_2 * (xy + yx + (xx * yx + xy * yy + xz * yz)),
+                ],
+            },
             dilation,
             distortion: square - 2.0 * (second + third),
-        })
+        };
+        (strain, sound)
     }
 
     /// `V − 1 = √b − 1`; `None` where `|b − 1|` is over 0.1.
@@ -84,7 +114,7 @@ impl LeftStrain {
     /// `ln J`.
     #[inline(always)]
     pub fn log_jacobian(&self) -> f64 {
-        self.dilation.ln_1p()
+        log_of_one_plus(self.dilation).0
     }
 }
 
@@ -125,20 +155,54 @@ pub(crate) fn product(a: &Sym, b: &Sym) -> Sym {
     }
 }
 
-/// `x − ln(1 + x)`, of second order in `x`, to round-off.
+/// `ln(1 + x)` and `x − ln(1 + x)`, the latter to round-off of its second order; `x > −1`.
 ///
-/// With `r = x/(2 + x)` it is `x r − 2 (r³/3 + r⁵/5 + …)`, from `ln(1 + x) = 2 artanh r`.
+/// Without branches and calls, so that several go on a vector unit at once. The steps are those of
+/// fdlibm's `log1p`: `1 + x = 2^k (1 + f)` with `1 + f` within √2 of 1 and the remainder `c` of
+/// rounding it; with `s = f/(2 + f)` the logarithm of `1 + f` is `2 artanh s = f − f²/2 + s (f²/2 + R)`,
+/// `R = s² (L₁ + s² (L₂ + …))`.
 #[inline(always)]
-pub(crate) fn excess_over_log(x: f64) -> f64 {
-    if x.abs() > 0.1 {
-        return x - x.ln_1p();
-    }
-    let r = x / (2.0 + x);
-    let q = r * r;
-    // |r| < 0.053: the first term left out is below 1e-19 of the sum.
+pub(crate) fn log_of_one_plus(x: f64) -> (f64, f64) {
+    const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+    const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+    /// Bits of 1 and of √½, upper halves.
+    const ONE: u64 = 0x3ff0_0000;
+    const ROOT_HALF: u64 = 0x3fe6_a09e;
+    let sum = 1.0 + x;
+    let bits = sum.to_bits();
+    let high = (bits >> 32) + (ONE - ROOT_HALF);
+    let exponent = (high >> 20) as i32 - 0x3ff;
+    let mantissa = ((high & 0xf_ffff) + ROOT_HALF) << 32 | (bits & 0xffff_ffff);
+    let near = exponent == 0;
+    let rounded = if exponent >= 2 {
+        1.0 - (sum - x)
+    } else {
+        x - (sum - 1.0)
+    };
+    let c = if near { 0.0 } else { rounded * (1.0 / sum) };
+    let f = if near {
+        x
+    } else {
+        f64::from_bits(mantissa) - 1.0
+    };
+    let k = f64::from(exponent);
+    let s = f / (2.0 + f);
+    let z = s * s;
+    let series = z
+        * (6.666_666_666_666_735e-1
+            + z * (3.999_999_999_940_942e-1
+                + z * (2.857_142_874_366_239e-1
+                    + z * (2.222_219_843_214_978_4e-1
+                        + z * (1.818_357_216_161_805e-1
+                            + z * (1.531_383_769_920_937_3e-1
+                                + z * 1.479_819_860_511_658_6e-1))))));
+    let half = 0.5 * f * f;
+    let log = s * (half + series) + (k * LN_2_LOW + c) - half + f + k * LN_2_HIGH;
+    // `x s − 2 (s³/3 + s⁵/5 + …)`, where `f = x`; the first term left out is below 1e-19 of the sum.
     let tail = 1.0 / 3.0
-        + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q / 13.0))));
-    x * r - 2.0 * r * q * tail
+        + z * (1.0 / 5.0 + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z * (1.0 / 11.0 + z * (1.0 / 13.0)))));
+    let small = x * s - 2.0 * s * z * tail;
+    (log, if x.abs() <= 0.1 { small } else { x - log })
 }
 
 #[cfg(test)]
@@ -149,10 +213,26 @@ mod tests {
     fn logarithm_excess_is_smooth_across_its_branches_and_second_order() {
         for x in [0.099_999, 0.100_001, -0.099_999, -0.100_001] {
             let direct = x - f64::ln_1p(x);
-            assert!((excess_over_log(x) / direct - 1.0).abs() < 1e-13);
+            assert!((log_of_one_plus(x).1 / direct - 1.0).abs() < 1e-13);
         }
         let x = 1e-12;
-        assert!((excess_over_log(x) / (0.5 * x * x) - 1.0).abs() < 1e-11);
+        assert!((log_of_one_plus(x).1 / (0.5 * x * x) - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn logarithms_are_those_of_the_library_to_the_last_place() {
+        let sizes = (-300..300).map(|i| 10f64.powf(f64::from(i) * 0.05));
+        for x in sizes.flat_map(|size| [size, -size, 0.37 * size, -0.61 * size]) {
+            if x > -1.0 {
+                let (found, exact) = (log_of_one_plus(x).0, x.ln_1p());
+                let gap = (found - exact).abs();
+                assert!(
+                    gap <= f64::EPSILON * exact.abs(),
+                    "{x:e}: {found:e}, {exact:e}"
+                );
+            }
+        }
+        assert_eq!(log_of_one_plus(0.0), (0.0, 0.0));
     }
 
     #[test]

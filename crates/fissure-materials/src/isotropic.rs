@@ -1,8 +1,13 @@
 //! Isotropic linear elasticity at small strain: `σ = λ tr(ε) 1 + 2μ ε`, `ε = sym(F) − 1`.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use fissure_tensor::{Matrix3, Sym, Tangent};
 
-use crate::{Increment, Material, MaterialError, Response, Scale, check_parameter};
+use crate::{
+    EIGHT, EightPoints, EightResponses, Increment, Material, MaterialError, Response, Scale,
+    check_parameter,
+};
 
 /// Isotropic elastic constants, and the small-strain law of that name.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,11 +22,13 @@ pub struct Isotropic {
 
 impl Isotropic {
     /// Lamé's first constant λ, Pa.
+    #[inline(always)]
     pub fn lambda(&self) -> f64 {
         self.young * self.poisson / ((1.0 + self.poisson) * (1.0 - 2.0 * self.poisson))
     }
 
     /// Shear modulus μ, Pa.
+    #[inline(always)]
     pub fn shear_modulus(&self) -> f64 {
         0.5 * self.young / (1.0 + self.poisson)
     }
@@ -32,17 +39,19 @@ impl Isotropic {
     }
 
     /// `λ + 2μ`, Pa.
+    #[inline(always)]
     pub fn p_wave_modulus(&self) -> f64 {
         self.lambda() + 2.0 * self.shear_modulus()
     }
 
     /// Speed of dilatational waves, m/s.
+    #[inline(always)]
     pub fn p_wave_speed(&self) -> f64 {
         (self.p_wave_modulus() / self.density).sqrt()
     }
 
     /// `λ tr(ε) 1 + 2μ ε`, Pa.
-    #[inline]
+    #[inline(always)]
     pub fn stress(&self, strain: &Sym) -> Sym {
         Sym::IDENTITY * (self.lambda() * strain.trace()) + *strain * (2.0 * self.shear_modulus())
     }
@@ -108,6 +117,36 @@ impl Material for Isotropic {
             stored: 0.5 * stress.dot(&strain),
             dissipated: 0.0,
         })
+    }
+
+    #[inline(always)]
+    fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        let mut responses = EightResponses::default();
+        let mut all_sound = true;
+        for place in 0..EIGHT {
+            let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = points.gradient(place);
+            let determinant =
+                xx * (yy * zz - zy * yz) - xy * (yx * zz - zx * yz) + xz * (yx * zy - zx * yy);
+            all_sound &= (determinant > 0.0) & (determinant < f64::INFINITY);
+            let strain = Sym {
+                mandel: [
+                    xx - 1.0,
+                    yy - 1.0,
+                    zz - 1.0,
+                    FRAC_1_SQRT_2 * (yz + zy),
+                    FRAC_1_SQRT_2 * (xz + zx),
+                    FRAC_1_SQRT_2 * (xy + yx),
+                ],
+            };
+            let elastic = Self {
+                young: self.young * points.stiffness[place],
+                ..*self
+            };
+            let stress = elastic.stress(&strain);
+            let stored = 0.5 * stress.dot(&strain);
+            responses.set(place, &stress, stored, elastic.p_wave_speed());
+        }
+        all_sound.then_some(responses)
     }
 
     fn tangent(&self, increment: &Increment, _old: &()) -> Result<Tangent, MaterialError> {

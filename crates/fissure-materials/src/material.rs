@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{Increment, MaterialError, Response, Scale, SheetStep};
+use crate::{EightPoints, EightResponses, Increment, MaterialError, Response, Scale, SheetStep};
 
 /// A constitutive law: a pure function from an increment and an old state to a new state.
 ///
@@ -129,6 +129,20 @@ pub trait Material: Send + Sync + 'static {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<Response<Self::State>, MaterialError>;
+
+    /// What [`update`](Self::update) and [`wave_speed`](Self::wave_speed) answer, to the last bit, for eight
+    /// points that have no history, do not get one in this step, and are given nothing from outside
+    /// but factors on stiffness and strength.
+    ///
+    /// `None`, as by default, sends the points to `update` one by one. A law answers so where one of
+    /// the eight is out of the ordinary too: fails, cracks, strains beyond what its short form
+    /// covers. To gain from a vector unit the method must be `#[inline(always)]` with what it
+    /// calls, and go through the points in a loop of few branches. Laws that determine their own
+    /// thickness are not asked.
+    #[inline(always)]
+    fn update_eight(&self, _points: &EightPoints) -> Option<EightResponses> {
+        None
+    }
 
     /// Spatial tangent for the Truesdell rate: `c : d = (δτ − dτ − τd)/J` for the change `δτ` of
     /// the Kirchhoff stress under `F → (1 + d) F`, Pa. The solver adds the geometric term.

@@ -6,8 +6,11 @@
 
 use fissure_tensor::{Matrix3, Sym, Tangent};
 
-use crate::finite_strain::{LeftStrain, excess_over_log};
-use crate::{Increment, Isotropic, Material, MaterialError, Response, Scale};
+use crate::finite_strain::{LeftStrain, log_of_one_plus};
+use crate::{
+    EIGHT, EightPoints, EightResponses, Increment, Isotropic, Material, MaterialError, Response,
+    Scale,
+};
 
 /// Parameters of the compressible neo-Hookean law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,13 +33,71 @@ impl NeoHookean {
         }
     }
 
-    /// `λ`, `μ` of one particle, Pa.
+    /// What is the same for all particles.
     #[inline(always)]
-    fn constants(&self, scale: &Scale) -> (f64, f64) {
-        // One division for both: this is most of the time of a small law.
+    fn constants(&self) -> Constants {
+        // One division for both moduli.
         let shape = 1.0 - 2.0 * self.poisson;
-        let unit = self.young * scale.stiffness / ((1.0 + self.poisson) * shape);
-        (unit * self.poisson, 0.5 * unit * shape)
+        let unit = self.young / ((1.0 + self.poisson) * shape);
+        Constants {
+            lambda: unit * self.poisson,
+            shear: 0.5 * unit * shape,
+            specific_volume: 1.0 / self.density,
+        }
+    }
+}
+
+/// `λ`, `μ`, Pa, and `1/ρ`, m³/kg.
+#[derive(Clone, Copy)]
+struct Constants {
+    lambda: f64,
+    shear: f64,
+    specific_volume: f64,
+}
+
+impl Constants {
+    /// Those of a particle.
+    #[inline(always)]
+    fn scaled(&self, stiffness: f64) -> Self {
+        Self {
+            lambda: self.lambda * stiffness,
+            shear: self.shear * stiffness,
+            ..*self
+        }
+    }
+
+    /// Cauchy stress, Pa, and stored energy, J/m³.
+    #[inline(always)]
+    fn stress(&self, strain: &LeftStrain) -> (Sym, f64) {
+        let (log, excess) = log_of_one_plus(strain.dilation);
+        let kirchhoff = strain.excess * self.shear + Sym::IDENTITY * (self.lambda * log);
+        // tr C − 3 − 2 ln J in terms that are each of second order.
+        let shape = strain.distortion + 2.0 * excess;
+        (
+            kirchhoff * (1.0 / strain.jacobian()),
+            0.5 * (self.shear * shape + self.lambda * log * log),
+        )
+    }
+
+    /// From above, in the current configuration: the acoustic tensor in direction `n` has the
+    /// eigenvalues `λ + μ − λ ln J + μ n·b·n` (along `n`) and `μ n·b·n` (across), over `ρ`; both
+    /// are largest along the longest stretch. That takes a spectrum and a logarithm, so bounds
+    /// stand for them: `max n·b·n ≤ p + 2 q` with the mean `p` of the eigenvalues of `b` and
+    /// `6 q² = |dev b|²` (equal in uniaxial stretch), and `−ln J ≤ 1/J − 1`, or `ln J ≤ J − 1`
+    /// where `λ < 0`. At small strain nothing is lost.
+    #[inline(always)]
+    fn wave_speed(&self, strain: &LeftStrain) -> f64 {
+        let mean = strain.excess.trace() * (1.0 / 3.0);
+        let deviator = strain.excess - Sym::IDENTITY * mean;
+        let squared = 1.0 + mean + 2.0 * (deviator.dot(&deviator) * (1.0 / 6.0)).sqrt();
+        let pressure = if self.lambda > 0.0 {
+            self.lambda * (1.0 / strain.jacobian() - 1.0)
+        } else {
+            self.lambda * -strain.dilation
+        };
+        let along = self.lambda + self.shear + pressure;
+        let along = if along > 0.0 { along } else { 0.0 };
+        ((along + self.shear * squared) * self.specific_volume).sqrt()
     }
 }
 
@@ -51,46 +112,47 @@ impl Material for NeoHookean {
         self.density
     }
 
-    /// From above, in the current configuration: the acoustic tensor in direction `n` has the
-    /// eigenvalues `λ + μ − λ ln J + μ n·b·n` (along `n`) and `μ n·b·n` (across), over `ρ`; both
-    /// are largest along the longest stretch. That takes a spectrum and a logarithm, so bounds
-    /// stand for them: `max n·b·n ≤ p + 2 q` with the mean `p` of the eigenvalues of `b` and
-    /// `6 q² = |dev b|²` (equal in uniaxial stretch), and `−ln J ≤ 1/J − 1`, or `ln J ≤ J − 1`
-    /// where `λ < 0`. At small strain nothing is lost.
+    /// From above; see the formula.
     #[inline(always)]
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &(), scale: &Scale) -> f64 {
-        let (lambda, shear) = self.constants(scale);
-        let b = Sym::from_matrix(&(f * f.transpose()));
-        let jacobian = f.determinant();
-        let deviator = b.deviator();
-        let squared = b.mean() + 2.0 * (deviator.dot(&deviator) / 6.0).sqrt();
-        let pressure = if lambda > 0.0 {
-            lambda * (1.0 / jacobian - 1.0)
-        } else {
-            lambda * (1.0 - jacobian)
-        };
-        let along = lambda + shear + pressure;
-        ((along.max(0.0) + shear * squared) / self.density).sqrt()
+        let constants = self.constants().scaled(scale.stiffness);
+        let strain = LeftStrain::of_rows([
+            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
+        ]);
+        constants.wave_speed(&strain.0)
     }
 
     #[inline(always)] // A call would copy the increment, which costs as much as the law.
     fn update(&self, increment: &Increment, _old: &()) -> Result<Response<()>, MaterialError> {
-        let (lambda, shear) = self.constants(&increment.external.scale);
-        let strain = LeftStrain::new(&increment.f_new)?;
-        let log = strain.log_jacobian();
-        let kirchhoff = strain.excess * shear + Sym::IDENTITY * (lambda * log);
-        // tr C − 3 − 2 ln J in terms that are each of second order.
-        let shape = strain.distortion + 2.0 * excess_over_log(strain.dilation);
+        let scale = &increment.external.scale;
+        let constants = self.constants().scaled(scale.stiffness);
+        let (stress, stored) = constants.stress(&LeftStrain::new(&increment.f_new)?);
         Ok(Response {
-            stress: kirchhoff * (1.0 / strain.jacobian()),
+            stress,
             state: (),
-            stored: 0.5 * (shear * shape + lambda * log * log),
+            stored,
             dissipated: 0.0,
         })
     }
 
+    #[inline(always)]
+    fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        let constants = self.constants();
+        let mut responses = EightResponses::default();
+        let mut all_sound = true;
+        for place in 0..EIGHT {
+            let (strain, sound) = LeftStrain::of_rows(points.gradient(place));
+            let constants = constants.scaled(points.stiffness[place]);
+            let (stress, stored) = constants.stress(&strain);
+            responses.set(place, &stress, stored, constants.wave_speed(&strain));
+            all_sound &= sound;
+        }
+        all_sound.then_some(responses)
+    }
+
     fn tangent(&self, increment: &Increment, _old: &()) -> Result<Tangent, MaterialError> {
-        let (lambda, shear) = self.constants(&increment.external.scale);
+        let scale = &increment.external.scale;
+        let Constants { lambda, shear, .. } = self.constants().scaled(scale.stiffness);
         let strain = LeftStrain::new(&increment.f_new)?;
         let shear_now = shear - lambda * strain.log_jacobian();
         Ok(Tangent::isotropic(lambda, shear_now) * (1.0 / strain.jacobian()))

@@ -33,7 +33,7 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Response, Scale,
+    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale,
     error::{check_below, check_scaled_toughness},
     turning::Turning,
 };
@@ -347,5 +347,26 @@ impl<E: DamageEvolution> Material for ScalarDamage<E> {
     fn values(&self, state: &ScalarDamageState, out: &mut [f64]) {
         out[0] = state.damage;
         out[1] = state.largest;
+    }
+}
+
+impl<E: DamageEvolution> Extrapolated for ScalarDamage<E> {
+    const NAMES_WITH_GAP: &'static [&'static str] = &["damage", "largest", "implex_gap"];
+
+    /// The damage goes on, up to 1.
+    fn frozen(
+        &self,
+        increment: &Increment,
+        before: &ScalarDamageState,
+        now: &ScalarDamageState,
+        ratio: f64,
+    ) -> Result<(Sym, Tangent), MaterialError> {
+        let damage = (now.damage + ratio * (now.damage - before.damage)).clamp(0.0, 1.0);
+        let kinematics = Biot::new(&increment.f_new)?;
+        let elastic = self.elastic.scaled(&increment.external.scale);
+        let left = 1.0 - damage;
+        let stress = elastic.stress(&kinematics.strain()) * left;
+        let tangent = kinematics.spatial_tangent(&stress, &(elastic.stiffness() * left));
+        Ok((kinematics.cauchy(&stress), tangent))
     }
 }

@@ -5,6 +5,7 @@ use fissure_particles::{ExtraError, ParticleError, ParticleId, SeedError};
 use thiserror::Error;
 
 use crate::crack::CrackError;
+use crate::solution::NewtonStop;
 
 /// Why a scene refused what it was given.
 #[derive(Debug, Error)]
@@ -184,7 +185,7 @@ pub enum SolveError {
     /// The equations of a step did not converge, however small it was cut.
     #[error(
         "step {step}, t = {time:.6e} s: no equilibrium after {cuts} cuts of the step \
-         (relative residual {residual:.3e}, tolerance {tolerance:.1e})"
+         ({}; relative residual {residual:.3e}, tolerance {tolerance:.1e})", stop.text()
     )]
     NoConvergence {
         /// The step that failed, counted from 1.
@@ -197,6 +198,8 @@ pub enum SolveError {
         residual: f64,
         /// What it had to reach.
         tolerance: f64,
+        /// Why the last attempt ended.
+        stop: NewtonStop,
     },
     /// The system of equations has no unique solution.
     #[error("step {step}, t = {time:.6e} s: the tangent is singular (is every body held?)")]

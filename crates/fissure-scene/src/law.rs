@@ -1,7 +1,10 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use fissure_materials::{External, Increment, Material, MaterialError, Matrix3, Response, Scale};
+use fissure_materials::{
+    EIGHT, EightPoints, External, Increment, Material, MaterialError, Matrix3, Response, Scale,
+};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
+use fissure_tensor::simd::{Lanes, SimdTask};
 use fissure_tensor::{Band, Sym};
 
 use crate::PersistError;
@@ -10,7 +13,7 @@ use crate::over_windows::{Cut, over_windows};
 use crate::states::{Fresh, StateColumns, States};
 use crate::sweep::{
     KernelFailure, Run, RunConstants, RunKernel, SweepCause, SweepFailure, SweepSettings,
-    SweepTotals, Tangents, WindowKernel,
+    SweepTotals, Tangents, Viscosity, WindowKernel,
 };
 
 /// Columns of a body that a sweep reads besides the motion.
@@ -226,6 +229,12 @@ impl<S> Swept<S> {
     }
 }
 
+/// Of two numbers.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 fn scale_of(scale: Option<&[ParticleScale]>, index: usize) -> Scale {
     scale.map_or_else(Scale::default, |scale| scale[index].0)
 }
@@ -300,7 +309,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         swept
     }
 
-    /// Calls the law on each particle of a run.
+    /// Calls the law on the particles of a run: by eights where it takes them so, else one by one.
     fn run(
         &self,
         run: &Run,
@@ -308,90 +317,46 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         part: &mut Part<'_, M, D>,
         fresh: &mut Fresh<M::State>,
     ) -> Result<SweepTotals, SweepFailure> {
-        let Part {
-            old,
-            new,
-            states,
-            tangents,
-        } = part;
         let first = run.start as usize;
         let mut totals = SweepTotals::default();
         let mut failure: Option<SweepFailure> = None;
         let asked = kernel.sets_external();
-        for row in 0..old.len() {
+        let mut eights = ByEights::default();
+        if !asked && matches!(part.tangents, Tangents::None) {
+            self.settings.simd.run(AskByEights {
+                law: self.law,
+                scale: self.constants.scale.map(|scale| &scale[first..]),
+                part,
+                answers: &mut eights,
+            });
+        }
+        for row in 0..part.old.len() {
             let index = first + row;
-            let scale = scale_of(self.constants.scale, index);
+            let volume = self.constants.volume[index];
+            let square = part.new.velocity[row].norm_squared();
+            totals.kinetic += 0.5 * self.constants.mass[index] * square;
+            totals.speed_squared = larger(totals.speed_squared, square);
+            if eights.answered(row) {
+                let (stored, speed) = (eights.stored[row], eights.wave_speed[row]);
+                totals.stored += stored * volume;
+                totals.wave_speed = larger(totals.wave_speed, speed);
+                totals.viscous += self.add_viscosity(part, row, speed, false) * volume;
+                continue;
+            }
             let set = if asked {
                 kernel.external(run, row)
             } else {
                 External::default()
             };
-            let mut increment = Increment {
-                f_old: old.deformation_gradient[row],
-                f_new: new.deformation_gradient[row],
-                dt: self.settings.dt,
-                band: self.settings.band,
-                external: External { scale, ..set },
-            };
-            let slot = states.slot(row);
-            let blank;
-            let state = match slot {
-                Some(slot) => states.present(slot),
-                None => {
-                    blank = self.law.without_history(&increment.f_old);
-                    &blank
+            let scale = scale_of(self.constants.scale, index);
+            match self.particle(row, index, External { scale, ..set }, part, fresh) {
+                Ok(one) => {
+                    totals.stored += one.stored * volume;
+                    totals.dissipated += one.dissipated * volume;
+                    totals.viscous += one.viscous * volume;
+                    totals.wave_speed = totals.wave_speed.max(one.wave_speed);
                 }
-            };
-            let answer = match tangents {
-                Tangents::None => self.law.update(&increment, state),
-                Tangents::Into(tangents) => {
-                    self.law
-                        .update_with_tangent(&increment, state)
-                        .map(|(response, tangent)| {
-                            tangents[row] = tangent;
-                            response
-                        })
-                }
-            };
-            match answer.and_then(finite::<M>) {
-                Ok(response) => {
-                    let volume = self.constants.volume[index];
-                    new.stress[row] = response.stress;
-                    totals.stored += response.stored * volume;
-                    totals.dissipated += response.dissipated * volume;
-                    if let Some(stretch) = self.law.out_of_plane_stretch(&response.state) {
-                        new.deformation_gradient[row].m33 = stretch;
-                    }
-                    let law = &self.law;
-                    let speed = law.wave_speed(&increment.f_new, &response.state, &scale);
-                    totals.wave_speed = totals.wave_speed.max(speed);
-                    // The law may have set its own thickness.
-                    increment.f_new.m33 = new.deformation_gradient[row].m33;
-                    let sheet = law.out_of_plane_stretch(&response.state).is_some();
-                    match slot {
-                        Some(slot) => states.set_trial(slot, response.state),
-                        None if law.has_history(&response.state) => {
-                            fresh.push((index as u32, response.state));
-                        }
-                        None => {}
-                    }
-                    let (pressure, work) = self.viscous_pressure(&increment, speed, sheet);
-                    if pressure > 0.0 {
-                        let mut viscous = Sym::IDENTITY * pressure;
-                        if sheet {
-                            viscous.mandel[2] = 0.0;
-                        }
-                        new.stress[row] -= viscous;
-                        totals.viscous += work * volume;
-                    }
-                }
-                Err(source) => {
-                    let cause = SweepCause::Law {
-                        source,
-                        deformation_gradient: Box::new(increment.f_new),
-                        state: format!("{state:?}"),
-                    };
-                    let next = self.failure(index, cause);
+                Err(next) => {
                     if failure.as_ref().is_none_or(|failure| next.id < failure.id) {
                         failure = Some(next);
                     }
@@ -401,17 +366,118 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         failure.map_or(Ok(totals), Err)
     }
 
+    /// Calls the law on one particle; energies per reference volume.
+    #[inline(always)]
+    fn particle(
+        &self,
+        row: usize,
+        index: usize,
+        external: External,
+        part: &mut Part<'_, M, D>,
+        fresh: &mut Fresh<M::State>,
+    ) -> Result<SweepTotals, SweepFailure> {
+        let law = self.law;
+        let increment = Increment {
+            f_old: part.old.deformation_gradient[row],
+            f_new: part.new.deformation_gradient[row],
+            dt: self.settings.dt,
+            band: self.settings.band,
+            external,
+        };
+        let slot = part.states.slot(row);
+        let blank;
+        let state = match slot {
+            Some(slot) => part.states.present(slot),
+            None => {
+                blank = law.without_history(&increment.f_old);
+                &blank
+            }
+        };
+        let answer = match &mut part.tangents {
+            Tangents::None => law.update(&increment, state),
+            Tangents::Into(tangents) => {
+                law.update_with_tangent(&increment, state)
+                    .map(|(response, tangent)| {
+                        tangents[row] = tangent;
+                        response
+                    })
+            }
+        };
+        let response = match answer.and_then(finite::<M>) {
+            Ok(response) => response,
+            Err(source) => {
+                let cause = SweepCause::Law {
+                    source,
+                    deformation_gradient: Box::new(increment.f_new),
+                    state: format!("{state:?}"),
+                };
+                return Err(self.failure(index, cause));
+            }
+        };
+        part.new.stress[row] = response.stress;
+        let stretch = law.out_of_plane_stretch(&response.state);
+        if let Some(stretch) = stretch {
+            part.new.deformation_gradient[row].m33 = stretch;
+        }
+        let wave_speed = law.wave_speed(&increment.f_new, &response.state, &external.scale);
+        match slot {
+            Some(slot) => part.states.set_trial(slot, response.state),
+            None if law.has_history(&response.state) => {
+                fresh.push((index as u32, response.state));
+            }
+            None => {}
+        }
+        Ok(SweepTotals {
+            stored: response.stored,
+            dissipated: response.dissipated,
+            viscous: self.add_viscosity(part, row, wave_speed, stretch.is_some()),
+            wave_speed,
+            ..SweepTotals::default()
+        })
+    }
+
+    /// Takes artificial pressure off the stress of a row; its work per reference volume, J/m³. In a
+    /// `sheet` none acts across.
+    #[inline(always)]
+    fn add_viscosity(
+        &self,
+        part: &mut Part<'_, M, D>,
+        row: usize,
+        wave_speed: f64,
+        sheet: bool,
+    ) -> f64 {
+        let Some(viscosity) = &self.settings.viscosity else {
+            return 0.0;
+        };
+        let old = &part.old.deformation_gradient[row];
+        let new = &part.new.deformation_gradient[row];
+        let (pressure, work) = self.viscous_pressure(viscosity, old, new, wave_speed, sheet);
+        if pressure > 0.0 {
+            let mut viscous = Sym::IDENTITY * pressure;
+            if sheet {
+                viscous.mandel[2] = 0.0;
+            }
+            part.new.stress[row] -= viscous;
+            return work;
+        }
+        0.0
+    }
+
     /// Artificial pressure, Pa, and its work per reference volume, J/m³; zero in expansion. In a
     /// `sheet` under plane stress no pressure acts across, so it is the area that counts.
-    fn viscous_pressure(&self, increment: &Increment, wave_speed: f64, sheet: bool) -> (f64, f64) {
-        let Some(viscosity) = self.settings.viscosity else {
-            return (0.0, 0.0);
-        };
-        let jacobian = increment.jacobian();
-        let (mut before, mut now, mut thickness) = (increment.f_old.determinant(), jacobian, 1.0);
+    fn viscous_pressure(
+        &self,
+        viscosity: &Viscosity,
+        f_old: &Matrix3<f64>,
+        f_new: &Matrix3<f64>,
+        wave_speed: f64,
+        sheet: bool,
+    ) -> (f64, f64) {
+        let jacobian = f_new.determinant();
+        let (mut before, mut now, mut thickness) = (f_old.determinant(), jacobian, 1.0);
         if sheet {
-            thickness = increment.f_new.m33;
-            before /= increment.f_old.m33;
+            thickness = f_new.m33;
+            before /= f_old.m33;
             now /= thickness;
         }
         let rate = (before - now) / (now * self.settings.dt);
@@ -430,6 +496,80 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
             id: self.constants.id[index],
             index,
             cause,
+        }
+    }
+}
+
+/// What a law answered for the particles of a run by eights; their stresses are in the trial.
+struct ByEights {
+    /// A bit for each eight.
+    answered: u8,
+    stored: [f64; Run::MAX],
+    wave_speed: [f64; Run::MAX],
+}
+
+impl Default for ByEights {
+    fn default() -> Self {
+        Self {
+            answered: 0,
+            stored: [0.0; Run::MAX],
+            wave_speed: [0.0; Run::MAX],
+        }
+    }
+}
+
+impl ByEights {
+    #[inline(always)]
+    fn answered(&self, row: usize) -> bool {
+        self.answered >> (row / EIGHT) & 1 == 1
+    }
+}
+
+/// Asks a law for the eights of a run that have no history.
+struct AskByEights<'a, 'p, M: Material, const D: usize> {
+    law: &'a M,
+    /// Of the run's particles on.
+    scale: Option<&'a [ParticleScale]>,
+    part: &'a mut Part<'p, M, D>,
+    answers: &'a mut ByEights,
+}
+
+impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _lanes: L) {
+        let answers = self.answers;
+        let Part { new, states, .. } = self.part;
+        let count = new.len().min(Run::MAX);
+        // All are brought into columns first: what has just been written number by number cannot be read by eights.
+        let mut points = [EightPoints::of(&Matrix3::identity()); Run::MAX / EIGHT];
+        for (row, f) in new.deformation_gradient.iter().enumerate().take(count) {
+            let points = &mut points[row / EIGHT];
+            points.set(row % EIGHT, f);
+            if let Some(scale) = self.scale {
+                points.stiffness[row % EIGHT] = scale[row].0.stiffness;
+                points.strength[row % EIGHT] = scale[row].0.strength;
+            }
+        }
+        for (first, points) in (0..count).step_by(EIGHT).zip(&points) {
+            let rows = first..(first + EIGHT).min(count);
+            let no_state = size_of::<M::State>() == 0;
+            if !no_state && rows.clone().any(|row| states.slot(row).is_some()) {
+                continue;
+            }
+            let Some(responses) = self.law.update_eight(points) else {
+                continue;
+            };
+            if !responses.is_finite() {
+                continue;
+            }
+            answers.answered |= 1 << (first / EIGHT);
+            for row in rows {
+                new.stress[row] = responses.stress(row - first);
+            }
+            answers.stored[first..first + EIGHT].copy_from_slice(&responses.stored);
+            answers.wave_speed[first..first + EIGHT].copy_from_slice(&responses.wave_speed);
         }
     }
 }

@@ -3,10 +3,12 @@
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
+use crate::solution::Solution;
+
 /// Energies of one step, J.
 ///
 /// The ledger keeps apart what is an identity from what is an approximation:
-/// `external = Δkinetic_grid + internal + contact` holds to round-off in an explicit step (in a quasi-static
+/// `external = Δkinetic_grid + internal + contact + stabilisation` holds to round-off in an explicit step (in a quasi-static
 /// one to what equilibrium and the fresh grid of the next step leave); `internal = Δstored + dissipated`
 /// to first order in the step, if the nodes that do the work also strain the particles (with MUSL
 /// the particles' own velocities do, and a dissipative transfer shows here too);
@@ -25,6 +27,8 @@ pub struct StepEnergy {
     pub viscous: f64,
     /// Energy that contacts take: friction, and impacts, which have no rebound of their own.
     pub contact: f64,
+    /// Work against the forces that stabilise a quasi-static step.
+    pub stabilisation: f64,
     /// Kinetic energy of the grid before the nodes were accelerated.
     pub kinetic_grid_start: f64,
     /// Kinetic energy of the grid after.
@@ -48,11 +52,13 @@ pub struct EnergyTotals {
     pub viscous: f64,
     /// Energy that contacts took.
     pub contact: f64,
+    /// Work against the forces that stabilise quasi-static steps.
+    pub stabilisation: f64,
     /// Kinetic energy of the particles now.
     pub kinetic: f64,
     /// Kinetic energy lost between particles and grid, both ways.
     pub transfer_loss: f64,
-    /// Largest `|external − Δkinetic_grid − internal − contact|` of a step, over that step's largest term.
+    /// Largest `|external − Δkinetic_grid − internal − contact − stabilisation|` of a step, over that step's largest term.
     pub worst_balance: f64,
 }
 
@@ -65,6 +71,7 @@ impl EnergyTotals {
         self.dissipated += step.dissipated;
         self.viscous += step.viscous;
         self.contact += step.contact;
+        self.stabilisation += step.stabilisation;
         self.transfer_loss += (self.kinetic - step.kinetic_grid_start)
             + (step.kinetic_grid_end - step.kinetic_particles);
         self.kinetic = step.kinetic_particles;
@@ -76,7 +83,8 @@ impl EnergyTotals {
             .max(step.kinetic_grid_end)
             .max(step.kinetic_grid_start);
         if scale > 0.0 {
-            let balance = (step.external - gain - step.internal - step.contact).abs() / scale;
+            let taken = step.internal + step.contact + step.stabilisation;
+            let balance = (step.external - gain - taken).abs() / scale;
             // `max` would drop a NaN.
             if !(balance <= self.worst_balance) {
                 self.worst_balance = balance;
@@ -108,4 +116,15 @@ pub struct Report<const D: usize> {
     pub contact_forces: Vec<SVector<f64, D>>,
     /// Newton iterations; 0 for explicit steps.
     pub iterations: usize,
+    /// How the equations were solved; `None` for explicit steps.
+    pub solution: Option<Solution>,
+}
+
+impl<const D: usize> Report<D> {
+    /// Time for which the loads and motions were taken at the end of the step, and what it changed by, s.
+    pub fn load_time(&self) -> (f64, f64) {
+        self.solution.map_or((self.time, self.dt), |solution| {
+            (solution.load_time, solution.load_step)
+        })
+    }
 }

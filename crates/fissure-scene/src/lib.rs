@@ -33,6 +33,7 @@ mod ledger;
 mod over_windows;
 mod persist;
 mod scene;
+mod solution;
 mod solver;
 mod states;
 mod sweep;
@@ -53,6 +54,7 @@ pub use ledger::{EnergyTotals, Report, StepEnergy};
 pub use over_windows::for_each_window;
 pub use persist::Section;
 pub use scene::Scene;
+pub use solution::{NewtonStop, Solution, StepControl};
 pub use solver::{RunSummary, Solver, Until, Watch, run};
 pub use states::state_bytes;
 pub use sweep::{

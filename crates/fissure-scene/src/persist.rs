@@ -26,6 +26,7 @@ const CRACKS: &str = "cracks";
 #[derive(Serialize, Deserialize)]
 struct Clock<const D: usize> {
     time: f64,
+    load_time: f64,
     step: u64,
     energy: EnergyTotals,
     reactions: Vec<SVector<f64, D>>,
@@ -54,6 +55,7 @@ impl<const D: usize> Scene<D> {
         });
         let clock = Clock {
             time: self.time,
+            load_time: self.load_time,
             step: self.step,
             energy: self.energy,
             reactions: self.reactions.clone(),
@@ -105,6 +107,7 @@ impl<const D: usize> Scene<D> {
     pub fn restore(&mut self, sections: &[Section]) -> Result<(), PersistError> {
         let clock: Clock<D> = decode(sections, "scene")?;
         self.time = clock.time;
+        self.load_time = clock.load_time;
         self.step = clock.step;
         self.energy = clock.energy;
         self.reactions = clock.reactions;

@@ -27,6 +27,7 @@ pub struct Scene<const D: usize> {
     pub(crate) cracks: Vec<CrackLine>,
     pub(crate) body_force: Option<BodyForce<D>>,
     pub(crate) time: f64,
+    pub(crate) load_time: f64,
     pub(crate) step: u64,
     pub(crate) energy: EnergyTotals,
     pub(crate) reactions: Vec<SVector<f64, D>>,
@@ -66,6 +67,7 @@ impl<const D: usize> Scene<D> {
             cracks: Vec::new(),
             body_force: None,
             time: 0.0,
+            load_time: 0.0,
             step: 0,
             energy: EnergyTotals::default(),
             reactions: Vec::new(),
@@ -78,6 +80,12 @@ impl<const D: usize> Scene<D> {
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// Time for which a quasi-static step takes the scene's loads and motions, s: the load factor of a
+    /// path that is followed, else [`time`](Self::time). Dynamic solvers take the time itself.
+    pub fn load_time(&self) -> f64 {
+        self.load_time
     }
 
     /// Steps done.
@@ -161,16 +169,18 @@ impl<const D: usize> Scene<D> {
 
     /// Books a step: time, energies, reactions, and the way of the rigid bodies. For solvers.
     pub fn record(&mut self, report: &Report<D>) {
+        let (load_time, load_step) = report.load_time();
         for condition in &mut self.conditions {
             let ConditionKind::Velocity { hold, speed } = &condition.kind else {
                 continue;
             };
             if let Selection::Rigid { position, .. } = &mut condition.selection {
-                let way = hold.direction() * (speed.at(report.time) * report.dt);
+                let way = hold.direction() * (speed.at(load_time) * load_step);
                 position.iter_mut().for_each(|x| *x += way);
             }
         }
         self.time = report.time;
+        self.load_time = load_time;
         self.step = report.step;
         self.energy.add(&report.energy);
         self.reactions.clone_from(&report.reactions);

@@ -2,7 +2,7 @@
 
 use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
-use fissure_tensor::Band;
+use fissure_tensor::{Band, simd::Simd};
 
 use crate::law::Constants;
 
@@ -191,6 +191,8 @@ pub struct SweepSettings {
     pub band: Band,
     /// Artificial viscosity, if wanted.
     pub viscosity: Option<Viscosity>,
+    /// The vector unit that laws run on.
+    pub simd: Simd,
 }
 
 /// Sums over the particles of a body, in an order that does not depend on threads.
@@ -204,6 +206,10 @@ pub struct SweepTotals {
     pub viscous: f64,
     /// Largest wave speed, m/s.
     pub wave_speed: f64,
+    /// Kinetic energy of the velocities in the trial, J.
+    pub kinetic: f64,
+    /// Square of the largest of those, m²/s².
+    pub speed_squared: f64,
 }
 
 impl SweepTotals {
@@ -214,6 +220,8 @@ impl SweepTotals {
             dissipated: self.dissipated + other.dissipated,
             viscous: self.viscous + other.viscous,
             wave_speed: self.wave_speed.max(other.wave_speed),
+            kinetic: self.kinetic + other.kinetic,
+            speed_squared: self.speed_squared.max(other.speed_squared),
         }
     }
 }

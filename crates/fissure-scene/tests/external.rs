@@ -111,6 +111,7 @@ fn a_damage_field_degrades_each_particle_by_its_own_value() {
         dt: 1.0,
         band: Band::Uniform(0.1),
         viscosity: None,
+        simd: fissure_tensor::simd::Simd::widest(),
     };
     let body = &mut scene.bodies_mut()[0];
     body.sweep(&runs, &field, &settings).unwrap();

@@ -50,6 +50,7 @@ fn the_lowest_id_of_a_run_is_reported_whatever_the_order() {
         dt: 1.0,
         band: Band::Uniform(0.1),
         viscosity: None,
+        simd: fissure_tensor::simd::Simd::widest(),
     };
     let body = &mut scene.bodies_mut()[0];
     let beyond = |body: &fissure_scene::Body<2>| {

@@ -31,9 +31,13 @@ mod window;
 pub use band::BandSource;
 #[cfg(feature = "implicit")]
 pub use equilibrium::choice::{Iterative, LinearSolver, Method, Preconditioning, Product};
+#[cfg(feature = "implicit")]
+pub use equilibrium::statistics::StepStatistics;
 pub use explicit::{Explicit, ExplicitSettings, StressUpdate, Transfer};
 #[cfg(feature = "implicit")]
-pub use implicit::{Implicit, ImplicitSettings, Integration, NewtonStop, StepStatistics};
+pub use fissure_scene::NewtonStop;
+#[cfg(feature = "implicit")]
+pub use implicit::{Implicit, ImplicitSettings, Integration};
 pub use placement::Placement;
 #[cfg(feature = "implicit")]
-pub use quasi_static::{QuasiStatic, QuasiStaticSettings};
+pub use quasi_static::{LoadControl, QuasiStatic, QuasiStaticSettings, VolumeChange};

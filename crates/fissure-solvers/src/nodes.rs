@@ -37,7 +37,7 @@ pub(crate) struct NodeSums<const D: usize> {
     nodes: Vec<Node>,
 }
 
-/// Momentum, mass, internal force: 2 D + 1 numbers, as bits.
+/// Momentum in the first three places, mass, internal force from the fifth on, as bits.
 #[derive(Debug, Default)]
 #[repr(align(64))]
 struct Node([AtomicU64; SUMS]);
@@ -47,9 +47,9 @@ const CLEARED: usize = 4096;
 
 impl<const D: usize> NodeSums<D> {
     /// Where the mass stands in what a particle gives.
-    pub(crate) const MASS: usize = D;
+    pub(crate) const MASS: usize = MASSIVE;
     /// Where the internal force begins.
-    pub(crate) const FORCE: usize = D + 1;
+    pub(crate) const FORCE: usize = FIELD;
 
     /// Zero at so many nodes.
     pub(crate) fn clear(&mut self, count: usize) {
@@ -70,7 +70,7 @@ impl<const D: usize> NodeSums<D> {
     /// Adds to a node; one thread at a time.
     #[inline]
     pub(crate) fn add(&self, node: usize, numbers: &[f64; SUMS]) {
-        for (sum, number) in self.nodes[node].0.iter().zip(&numbers[..2 * D + 1]) {
+        for (sum, number) in self.nodes[node].0.iter().zip(&numbers[..FIELD + D]) {
             let present = f64::from_bits(sum.load(Relaxed));
             sum.store((present + number).to_bits(), Relaxed);
         }

@@ -4,15 +4,15 @@
 //! to the nodes. Batches of windows are worked on one by one: those of a batch have no node in common,
 //! so every sum has one order and the same bits on any number of threads.
 
-use fissure_grid::simd::{Lanes, Simd, SimdTask};
-use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencil};
+use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
+use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencils};
 use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
 use fissure_tensor::Sym;
 use nalgebra::{SMatrix, SVector};
 
-use crate::nodes::{Field, NodeSums};
+use crate::nodes::{Field, NodeSums, vector};
 use crate::placement::Placement;
-use crate::window::WindowSums;
+use crate::window::{CUBE, SQUARE, WindowSums};
 
 /// The discretisation of a scene: everything a transfer needs besides the particles' numbers.
 pub(crate) struct Transfers<'a, S, const D: usize> {
@@ -36,9 +36,9 @@ pub(crate) fn momentum_gift<const D: usize>(
     }
     gift.value[NodeSums::<D>::MASS] = mass;
     if let Some(affine) = affine {
-        for (moment, column) in gift.moment.iter_mut().zip(affine.column_iter()) {
+        for j in 0..D {
             for i in 0..D {
-                moment[i] = mass * column[i];
+                gift.sloped[j][i] = mass * affine[(i, j)];
             }
         }
     }
@@ -55,9 +55,9 @@ pub(crate) fn add_stress<const D: usize>(
     x: &SVector<f64, D>,
 ) {
     let full = stress.to_matrix();
-    for (j, gradient) in gift.gradient.iter_mut().enumerate() {
+    for j in 0..D {
         for i in 0..D {
-            gradient[NodeSums::<D>::FORCE + i] = -volume * full[(i, j)];
+            gift.sloped[j][NodeSums::<D>::FORCE + i] = -volume * full[(i, j)];
         }
     }
     if kinematics == Kinematics::Axisymmetric {
@@ -96,24 +96,50 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         self.shape.stencil(self.grid, tile, x, &domain)
     }
 
-    /// Sums to the nodes what `give` says of every particle, by value, gradient and (`MOMENT`)
-    /// weighted arm.
+    /// Stencils of the first eight of these particles, or of all if they are fewer: their positions
+    /// and deformation gradients.
+    #[inline(always)]
+    pub(crate) fn stencils_at(
+        &self,
+        half_edges: &SMatrix<f64, D, D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>],
+        f: &[nalgebra::Matrix3<f64>],
+    ) -> S::Stencils {
+        let mut padded = [SVector::zeros(); EIGHT];
+        let eight = match x.first_chunk() {
+            Some(eight) => eight,
+            None => {
+                padded[..x.len()].copy_from_slice(x);
+                &padded
+            }
+        };
+        // Any particle stands in for those that are not there.
+        let domain = |place: usize| {
+            let f = &f[place.min(f.len() - 1)];
+            self.shape.domain(half_edges, &Body::<D>::in_space(f))
+        };
+        self.shape.stencils(self.grid, tile, eight, domain)
+    }
+
+    /// Sums to the nodes what `give` says of every particle: by value, and with `SLOPED` by gradient
+    /// and weighted arm.
     ///
     /// # Errors
     /// Body and index of a particle that reaches off the grid.
-    pub(crate) fn spread<const MOMENT: bool>(
+    pub(crate) fn spread<const SLOPED: bool>(
         &self,
         scene: &Scene<D>,
         sums: &mut NodeSums<D>,
         give: impl Fn(&Body<D>, usize) -> Gift<D> + Sync,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.spread_window::<64, MOMENT>(scene, body_index, runs, sums, &give),
-            _ => self.spread_window::<512, MOMENT>(scene, body_index, runs, sums, &give),
+            2 => self.spread_window::<SQUARE, SLOPED>(scene, body_index, runs, sums, &give),
+            _ => self.spread_window::<CUBE, SLOPED>(scene, body_index, runs, sums, &give),
         })
     }
 
-    fn spread_window<const N: usize, const MOMENT: bool>(
+    fn spread_window<const N: usize, const SLOPED: bool>(
         &self,
         scene: &Scene<D>,
         body_index: usize,
@@ -123,7 +149,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     ) -> Result<(), (usize, usize)> {
         let number = runs[0].window;
         let mut window = WindowSums::<N>::zero();
-        let task = SpreadRuns::<'_, S, _, D, MOMENT> {
+        let task = SpreadRuns::<'_, S, _, D, SLOPED> {
             transfers: self,
             body: &scene.bodies()[body_index],
             tile: self.placement.coordinates(number),
@@ -148,8 +174,8 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &mut NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.relay_window::<64, 65>(scene, body_index, runs, field, sums),
-            _ => self.relay_window::<512, 513>(scene, body_index, runs, field, sums),
+            2 => self.relay_window::<SQUARE, 65>(scene, body_index, runs, field, sums),
+            _ => self.relay_window::<CUBE, 513>(scene, body_index, runs, field, sums),
         })
     }
 
@@ -194,7 +220,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     }
 }
 
-struct SpreadRuns<'a, S, G, const D: usize, const MOMENT: bool> {
+struct SpreadRuns<'a, S, G, const D: usize, const SLOPED: bool> {
     transfers: &'a Transfers<'a, S, D>,
     body: &'a Body<D>,
     tile: [i32; D],
@@ -203,19 +229,31 @@ struct SpreadRuns<'a, S, G, const D: usize, const MOMENT: bool> {
     window: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Shape<D>, G: Fn(&Body<D>, usize) -> Gift<D>, const D: usize, const MOMENT: bool> SimdTask
-    for SpreadRuns<'_, S, G, D, MOMENT>
+impl<S: Shape<D>, G: Fn(&Body<D>, usize) -> Gift<D>, const D: usize, const SLOPED: bool> SimdTask
+    for SpreadRuns<'_, S, G, D, SLOPED>
 {
     type Output = Result<(), usize>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
+        let motion = self.body.motion();
         for run in self.runs {
-            for index in run.start as usize..run.end as usize {
-                let stencil = self.transfers.stencil(self.body, self.tile, index);
-                let gift = (self.give)(self.body, index);
-                let stencil = stencil.ok_or(index)?;
-                stencil.scatter::<L, true, MOMENT>(lanes, &gift, self.window);
+            let (start, end) = (run.start as usize, run.end as usize);
+            for first in (start..end).step_by(EIGHT) {
+                let stencils = self.transfers.stencils_at(
+                    self.body.half_edges(),
+                    self.tile,
+                    &motion.position[first..end],
+                    &motion.deformation_gradient[first..end],
+                );
+                for index in first..(first + EIGHT).min(end) {
+                    let place = index - first;
+                    if !stencils.fits(place) {
+                        return Err(index);
+                    }
+                    let gift = (self.give)(self.body, index);
+                    stencils.scatter::<L, SLOPED>(lanes, place, &gift, self.window);
+                }
             }
         }
         Ok(())
@@ -237,14 +275,26 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
         let particles = self.body.particles();
+        let motion = self.body.motion();
         for run in self.runs {
-            for index in run.start as usize..run.end as usize {
-                let stencil = self.transfers.stencil(self.body, self.tile, index);
-                let stencil = stencil.ok_or(index)?;
-                let value = stencil.gather::<L, false, false>(lanes, self.values).value;
-                let v = SVector::from_fn(|axis, _| value[axis]);
-                let gift = momentum_gift(particles.mass[index], &v, None);
-                stencil.scatter::<L, false, false>(lanes, &gift, self.window);
+            let (start, end) = (run.start as usize, run.end as usize);
+            for first in (start..end).step_by(EIGHT) {
+                let stencils = self.transfers.stencils_at(
+                    self.body.half_edges(),
+                    self.tile,
+                    &motion.position[first..end],
+                    &motion.deformation_gradient[first..end],
+                );
+                for index in first..(first + EIGHT).min(end) {
+                    let place = index - first;
+                    if !stencils.fits(place) {
+                        return Err(index);
+                    }
+                    let gathered = stencils.gather::<L, false, false>(lanes, place, self.values);
+                    let v = vector(&lanes.store4(gathered.value));
+                    let gift = momentum_gift(particles.mass[index], &v, None);
+                    stencils.scatter::<L, false>(lanes, place, &gift, self.window);
+                }
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
 
-use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, window_map};
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, sums_entry, window_map};
 
 use crate::nodes::NodeSums;
 
@@ -71,21 +71,22 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
         });
     }
 
-    /// Adds what was summed in the window to the nodes; those that no particle reached are left
-    /// out.
+    /// Adds what was summed in the window to the nodes. Also zeros, where no particle reached: to ask is what a
+    /// processor would often guess wrong.
     #[inline]
     pub(crate) fn add(&self, window: &[[f64; SUMS]], sums: &NodeSums<D>) {
         self.rows(|entry, node, count| {
             for i in 0..count {
-                let numbers = &window[entry + i];
-                // Zeros of both signs have no other bits.
-                if numbers.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 != 0 {
-                    sums.add(node + i, numbers);
-                }
+                sums.add(node + i, &window[sums_entry(entry + i)]);
             }
         });
     }
 }
+
+/// Elements of a window's sums in the plane.
+pub(crate) const SQUARE: usize = sums_entry(64);
+/// The same in space.
+pub(crate) const CUBE: usize = sums_entry(512);
 
 /// Sums of a window, aligned so that a node's numbers lie in one cache line.
 #[repr(align(64))]

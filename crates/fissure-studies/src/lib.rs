@@ -5,12 +5,15 @@
 mod bar;
 mod bar_bifurcation;
 mod bar_orientation;
+mod bar_snapback;
+mod compact_tension;
 mod convergence;
 mod filling;
 mod method;
 pub mod nairn;
 mod problem;
 mod softening_wave;
+mod stiff;
 mod stress_intensity;
 pub mod tensile_bar;
 pub mod verification;
@@ -23,6 +26,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     let mut studies: Vec<Box<dyn Study>> = vec![Box::new(tensile_bar::TensileBar)];
     studies.extend(verification::studies());
     studies.push(Box::new(work_precision::WorkPrecision));
+    studies.push(Box::new(stiff::Stiff));
     studies.push(Box::new(problem::Verification(
         softening_wave::SofteningWave,
     )));
@@ -31,6 +35,8 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     )));
     studies.push(Box::new(bar_orientation::BarOrientation));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));
+    studies.push(Box::new(bar_snapback::BarSnapback));
+    studies.push(Box::new(compact_tension::CompactTension));
     studies.extend(nairn::studies());
     studies.extend(fissure_law_studies::studies());
     studies

@@ -11,7 +11,7 @@ use fissure_study::{Parameter, Parameters, Permitted, StudyError};
 pub const SHAPES: &[&str] = &["linear", "gimp", "cpdi", "bspline2", "bspline3"];
 
 /// The solvers by name; a study may permit fewer.
-pub const SOLVERS: &[&str] = &["explicit", "quasi-static"];
+pub const SOLVERS: &[&str] = &["explicit", "quasi-static", "implicit"];
 
 /// The parameters that [`Method::of`] reads, for a study that runs these spacings by default and
 /// permits these solvers, the first of them by default.
@@ -55,13 +55,13 @@ pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Par
         ),
         Parameter::count(
             "steps",
-            "load steps of the run (quasi-static)",
+            "equal steps of the run (quasi-static, implicit)",
             1,
             Permitted::counts(1..=100_000),
         ),
         Parameter::number(
             "tolerance",
-            "residual over the largest reaction in equilibrium (quasi-static)",
+            "residual in equilibrium over the largest reaction (quasi-static) or force (implicit)",
             "1",
             1e-8,
             Permitted::numbers(1e-12..=1e-2),
@@ -86,9 +86,9 @@ pub struct Method {
     pub shape: String,
     /// Explicit settings, but for the band.
     pub explicit: ExplicitSettings,
-    /// Load steps of a quasi-static run.
+    /// Steps of a quasi-static or implicit run.
     pub steps: u64,
-    /// Residual in equilibrium of a quasi-static run, over the largest reaction.
+    /// Residual in equilibrium of a quasi-static or implicit run, over the largest reaction or force.
     pub tolerance: f64,
 }
 
@@ -139,37 +139,48 @@ impl Method {
         band: BandSource,
         end: f64,
     ) -> Result<Box<dyn Solver<2>>, StudyError> {
-        let built = match self.shape.as_str() {
-            "gimp" => self.build_on(grid, shape::Gimp, band, end),
-            "cpdi" => self.build_on(grid, shape::Cpdi, band, end),
-            "bspline2" => self.build_on(grid, shape::Bspline2, band, end),
-            "bspline3" => self.build_on(grid, shape::Bspline3, band, end),
-            _ => self.build_on(grid, shape::Linear, band, end),
-        };
-        built.map_err(StudyError::failed("setting up the solver"))
+        let step = end / self.steps as f64;
+        let tolerance = self.tolerance;
+        self.build_with(
+            grid,
+            match self.solver.as_str() {
+                "quasi-static" => Chosen::QuasiStatic(QuasiStaticSettings {
+                    step,
+                    tolerance,
+                    band,
+                    ..QuasiStaticSettings::default()
+                }),
+                "implicit" => Chosen::Implicit(ImplicitSettings {
+                    step,
+                    tolerance,
+                    band,
+                    ..ImplicitSettings::default()
+                }),
+                _ => Chosen::Explicit(ExplicitSettings {
+                    band,
+                    ..self.explicit
+                }),
+            },
+        )
     }
 
-    fn build_on<S: Shape<2>>(
+    /// The solver with these settings on a grid, with the shape function of the method.
+    ///
+    /// # Errors
+    /// A setting outside its range.
+    pub fn build_with(
         &self,
         grid: Grid<2>,
-        shape: S,
-        band: BandSource,
-        end: f64,
-    ) -> Result<Box<dyn Solver<2>>, SolveError> {
-        if self.is_dynamic() {
-            let settings = ExplicitSettings {
-                band,
-                ..self.explicit
-            };
-            return Ok(Box::new(Explicit::new(grid, shape, settings)?));
-        }
-        let settings = QuasiStaticSettings {
-            step: end / self.steps as f64,
-            tolerance: self.tolerance,
-            band,
-            ..QuasiStaticSettings::default()
+        chosen: Chosen,
+    ) -> Result<Box<dyn Solver<2>>, StudyError> {
+        let built = match self.shape.as_str() {
+            "gimp" => chosen.build(grid, shape::Gimp),
+            "cpdi" => chosen.build(grid, shape::Cpdi),
+            "bspline2" => chosen.build(grid, shape::Bspline2),
+            "bspline3" => chosen.build(grid, shape::Bspline3),
+            _ => chosen.build(grid, shape::Linear),
         };
-        Ok(Box::new(QuasiStatic::new(grid, shape, settings)?))
+        built.map_err(StudyError::failed("setting up the solver"))
     }
 
     /// Width over which the first body of a scene smears a crack of this normal, m.
@@ -189,6 +200,27 @@ impl Method {
             _ => band.band(&shape::Linear, grid, body),
         };
         band.width(&Vector3::new(normal.x, normal.y, 0.0))
+    }
+}
+
+/// A solver and its settings.
+#[derive(Clone, Copy, Debug)]
+pub enum Chosen {
+    /// Explicit steps.
+    Explicit(ExplicitSettings),
+    /// Equilibrium.
+    QuasiStatic(QuasiStaticSettings),
+    /// Implicit steps.
+    Implicit(ImplicitSettings),
+}
+
+impl Chosen {
+    fn build<S: Shape<2>>(self, grid: Grid<2>, shape: S) -> Result<Box<dyn Solver<2>>, SolveError> {
+        Ok(match self {
+            Self::Explicit(settings) => Box::new(Explicit::new(grid, shape, settings)?),
+            Self::QuasiStatic(settings) => Box::new(QuasiStatic::new(grid, shape, settings)?),
+            Self::Implicit(settings) => Box::new(Implicit::new(grid, shape, settings)?),
+        })
     }
 }
 

@@ -114,7 +114,7 @@ impl<P: Problem> Verification<P> {
 
     fn row(&self, case: &Parameters, outcome: &Outcome) -> SimulationRow {
         let mut row = SimulationRow::new(self.0.name(), case);
-        if row.solver == "quasi-static" {
+        if row.solver != "explicit" {
             row.transfer.clear();
         }
         row.particles = outcome.scene.particle_count() as u64;

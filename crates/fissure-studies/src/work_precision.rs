@@ -175,7 +175,7 @@ impl Point {
     fn of(case: &Parameters, row: &SimulationRow, error: f64) -> Result<Self, StudyError> {
         let group = format!("{}, {}", row.solver, row.shape);
         let mut scheme = group.clone();
-        if row.solver != "quasi-static" {
+        if row.solver == "explicit" {
             scheme = format!("{scheme}, {}", row.transfer);
             let (update, cfl) = (case.choice("update")?, case.number("cfl")?);
             scheme = format!("{scheme}, {update}, cfl {cfl}");

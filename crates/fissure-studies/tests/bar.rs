@@ -56,3 +56,28 @@ fn an_imperfection_decides_between_two_lines() {
     let symmetric = number(&rows[0], "values", "load_l2_symmetric");
     assert!(symmetric <= 0.01, "off the symmetric branch by {symmetric}");
 }
+
+/// Both controls, short of the limit of 0.4331 m by nothing and beyond it: one direction, at the least, is unstable on the
+/// way back, none elsewhere.
+#[test]
+fn a_bar_that_snaps_back_follows_the_exact_curve() {
+    let rows = rows("bar-snapback", &["h=0.02", "length=0.44,1.0"]);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        for (error, bound) in [
+            ("path_l2", 0.003),
+            ("path_max", 0.03),
+            ("peak", 0.03),
+            ("work", 0.005),
+            ("dissipated", 1e-6),
+        ] {
+            let found = number(row, "errors", error);
+            assert!(found <= bound, "{error} = {found} is over {bound} in {row}");
+        }
+        let value = |name: &str| number(row, "values", name);
+        assert_eq!(value("most_pivots_rising"), 0.0, "{row}");
+        assert!(value("least_pivots_falling") >= 1.0, "{row}");
+        assert!(value("turned_back_falling") >= 10.0, "{row}");
+        assert_eq!(value("turned_back_rising"), 0.0, "{row}");
+    }
+}

@@ -42,6 +42,24 @@ fn quasi_static_bar_follows_the_exact_curve() {
 }
 
 #[test]
+fn implicit_bar_agrees_with_the_one_in_equilibrium() {
+    let rows = rows(
+        "tensile-bar",
+        &["solver=implicit", "shape=linear", "h=0.01", "angle=0"],
+    );
+    assert_eq!(rows.len(), 1);
+    assert_within(
+        &rows[0],
+        &[
+            ("load_l2", 0.03),
+            ("peak", 0.01),
+            ("work", 0.01),
+            ("dissipated", 0.01),
+        ],
+    );
+}
+
+#[test]
 fn explicit_bar_follows_the_exact_curve() {
     let rows = rows(
         "tensile-bar",

@@ -31,6 +31,7 @@ mod lyapunov;
 mod operators;
 mod polar;
 mod rotation;
+pub mod simd;
 mod spectral;
 mod sym;
 mod tangent;

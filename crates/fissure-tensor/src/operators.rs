@@ -7,20 +7,18 @@ use crate::Sym;
 
 impl Add for Sym {
     type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Self {
-            mandel: std::array::from_fn(|i| self.mandel[i] + o.mandel[i]),
-        }
+    #[inline(always)]
+    fn add(mut self, o: Self) -> Self {
+        self += o;
+        self
     }
 }
 impl Sub for Sym {
     type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self {
-            mandel: std::array::from_fn(|i| self.mandel[i] - o.mandel[i]),
-        }
+    #[inline(always)]
+    fn sub(mut self, o: Self) -> Self {
+        self -= o;
+        self
     }
 }
 impl Neg for Sym {
@@ -34,11 +32,12 @@ impl Neg for Sym {
 }
 impl Mul<f64> for Sym {
     type Output = Self;
-    #[inline]
-    fn mul(self, s: f64) -> Self {
-        Self {
-            mandel: self.mandel.map(|c| c * s),
+    #[inline(always)]
+    fn mul(mut self, s: f64) -> Self {
+        for c in &mut self.mandel {
+            *c *= s;
         }
+        self
     }
 }
 impl Div<f64> for Sym {
@@ -51,15 +50,20 @@ impl Div<f64> for Sym {
     }
 }
 impl AddAssign for Sym {
-    #[inline]
+    // A loop, not a closure: that would not be compiled for a vector unit.
+    #[inline(always)]
     fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
+        for i in 0..6 {
+            self.mandel[i] += o.mandel[i];
+        }
     }
 }
 impl SubAssign for Sym {
-    #[inline]
+    #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
+        for i in 0..6 {
+            self.mandel[i] -= o.mandel[i];
+        }
     }
 }
 impl Sum for Sym {

@@ -65,12 +65,12 @@ pub mod prelude {
     pub use fissure_materials::{
         AnisotropicDamage, Axis, Biot, Burn, Cohesive, Component, ConjugateDamage, Control, Crack,
         Cracking, DamagePlane, Decohesive, EllipticalDamage, Entry, Event, EventKind, Expansion,
-        External, GradientLeg, Hencky, Increment, Isotropic, J2, Jump, Jwl, Leg, LoweredStrength,
-        Material, MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode, NeoHookean,
-        Normal, Onset, Orthotropic, OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn,
-        RankineDamage, Response, Sample, ScalarDamage, Scale, Softening, SteppedCircleDamage,
-        SubSteps, Thermal, Traction, TractionSeparation, TwoCrackDamage, ViscousDamage,
-        check_parameter, contract, criteria, hardening, localization, multi_crack,
+        External, GradientLeg, Hencky, Implex, Increment, Isotropic, J2, Jump, Jwl, Leg,
+        LoweredStrength, Material, MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode,
+        NeoHookean, Normal, Onset, Orthotropic, OrthotropicDamage, Path, PlaneStress, Point,
+        ProgramBurn, RankineDamage, Response, Sample, ScalarDamage, Scale, Softening,
+        SteppedCircleDamage, SubSteps, Thermal, Traction, TractionSeparation, TwoCrackDamage,
+        ViscousDamage, check_parameter, contract, criteria, hardening, localization, multi_crack,
         multi_crack::{ModeOne, MultiCrack, Planes},
         softening,
     };
@@ -79,8 +79,9 @@ pub mod prelude {
     pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     #[cfg(feature = "implicit")]
     pub use fissure_solvers::{
-        Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, Method, NewtonStop,
-        Preconditioning, Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
+        Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, LoadControl, Method,
+        NewtonStop, Preconditioning, Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
+        VolumeChange,
     };
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     // The module too: `vector!` expands to paths into it.

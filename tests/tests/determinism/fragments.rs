@@ -1,5 +1,6 @@
 //! The scene of these tests: a bar that is torn while it flies, and a ball that meets it.
 
+use fissure::grid::simd::Simd;
 use fissure::prelude::*;
 use fissure_tests::{Build, ShapeKind, Space, Table, rubber};
 
@@ -102,11 +103,17 @@ pub fn scene_of<M: Material>(mut scene: Scene<2>, brittle: M, offset: f64) -> Sc
 
 /// The solver on a grid shifted by `offset`.
 pub fn solver(setting: &Setting, offset: f64) -> Box<dyn Solver<2>> {
+    solver_on(setting, offset, Simd::widest())
+}
+
+/// The same on a vector unit.
+pub fn solver_on(setting: &Setting, offset: f64, simd: Simd) -> Box<dyn Solver<2>> {
     let grid = Grid::over([4.0 + offset; 2], [7.0 + offset; 2], H).unwrap();
     let settings = ExplicitSettings {
         transfer: setting.transfer,
         stress_update: setting.update,
         cfl: 0.25,
+        simd,
         ..Default::default()
     };
     Table::solver(setting.shape, grid, settings).unwrap()

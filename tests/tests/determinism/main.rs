@@ -15,3 +15,4 @@ mod restart;
 mod sparse;
 mod threads;
 mod translation;
+mod units;

@@ -13,7 +13,7 @@ use crate::error::check_positive;
 /// ```
 ///
 /// with the changes of external work, stored and kinetic energy, the laws' dissipation, artificial
-/// viscosity, what contacts took, and transfer loss between two ledgers. For virtual crack closure they are those of two
+/// viscosity, what contacts and stabilising forces took, and transfer loss between two ledgers. For virtual crack closure they are those of two
 /// quasi-static scenes that differ by the crack's length only, or of one before and after its tip
 /// has moved and equilibrium is found again: central in the length, so take it as G at the middle of
 /// the two. In a dynamic run with a sharp crack nothing is released: what leaves the tip goes into
@@ -28,7 +28,7 @@ pub fn energy_release(
 ) -> Result<f64, MeasureError> {
     check_positive("area by which the crack has grown", area)?;
     let kept = |e: &EnergyTotals| {
-        let spent = e.dissipated + e.viscous + e.contact + e.transfer_loss;
+        let spent = e.dissipated + e.viscous + e.contact + e.stabilisation + e.transfer_loss;
         e.external - e.stored - e.kinetic - spent
     };
     let release = (kept(after) - kept(before)) / area;

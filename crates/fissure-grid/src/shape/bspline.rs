@@ -3,9 +3,10 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::axes::Axes;
-use crate::separable::Line;
-use crate::{Grid, Separable, Shape};
+use crate::axes::Numbers;
+use crate::separable::{Line, Profile};
+use crate::simd::EIGHT;
+use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// Quadratic B-splines, continuous gradient. The domain is not used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,6 +18,7 @@ pub struct Bspline3;
 
 impl<const D: usize> Shape<D> for Bspline2 {
     type Stencil = Separable<D, 3>;
+    type Stencils = SeparableStencils<D, 3>;
 
     fn name(&self) -> &'static str {
         "bspline2"
@@ -30,7 +32,18 @@ impl<const D: usize> Shape<D> for Bspline2 {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, quadratic)
+        Separable::new(grid, tile, x, self)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        SeparableStencils::new(grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -48,6 +61,7 @@ impl<const D: usize> Shape<D> for Bspline2 {
 
 impl<const D: usize> Shape<D> for Bspline3 {
     type Stencil = Separable<D, 4>;
+    type Stencils = SeparableStencils<D, 4>;
 
     fn name(&self) -> &'static str {
         "bspline3"
@@ -61,7 +75,18 @@ impl<const D: usize> Shape<D> for Bspline3 {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, cubic)
+        Separable::new(grid, tile, x, self)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        SeparableStencils::new(grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -77,37 +102,41 @@ impl<const D: usize> Shape<D> for Bspline3 {
     }
 }
 
-/// The nearest node and the ones beside it; `d` is the distance to it in cells.
-#[inline(always)]
-fn quadratic(t: Axes) -> Line<3> {
-    let nearest = t.step(0.5);
-    let d = t - nearest;
-    let (below, above) = (-d + 0.5, d + 0.5);
-    (
-        nearest + -1.0,
-        [below * below * 0.5, -(d * d) + 0.75, above * above * 0.5],
-        [-below, d * -2.0, above],
-    )
+impl Profile<3> for Bspline2 {
+    /// The nearest node and the ones beside it; `d` is the distance to it in cells.
+    #[inline(always)]
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<3, N> {
+        let nearest = t.step(0.5);
+        let d = t - nearest;
+        let (below, above) = (-d + 0.5, d + 0.5);
+        (
+            nearest + -1.0,
+            [below * below * 0.5, -(d * d) + 0.75, above * above * 0.5],
+            [-below, d * -2.0, above],
+        )
+    }
 }
 
-#[inline(always)]
-fn cubic(t: Axes) -> Line<4> {
-    let s = -t + 1.0;
-    let (t2, s2) = (t * t, s * s);
-    let sixth = 1.0 / 6.0;
-    (
-        Axes::splat(-1.0),
-        [
-            s2 * s * sixth,
-            t2 * (t * 0.5 + -1.0) + 2.0 / 3.0,
-            s2 * (s * 0.5 + -1.0) + 2.0 / 3.0,
-            t2 * t * sixth,
-        ],
-        [
-            s2 * -0.5,
-            t * (t * 1.5 + -2.0),
-            -(s * (s * 1.5 + -2.0)),
-            t2 * 0.5,
-        ],
-    )
+impl Profile<4> for Bspline3 {
+    #[inline(always)]
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<4, N> {
+        let s = -t + 1.0;
+        let (t2, s2) = (t * t, s * s);
+        let sixth = 1.0 / 6.0;
+        (
+            Numbers::splat(-1.0),
+            [
+                s2 * s * sixth,
+                t2 * (t * 0.5 + -1.0) + 2.0 / 3.0,
+                s2 * (s * 0.5 + -1.0) + 2.0 / 3.0,
+                t2 * t * sixth,
+            ],
+            [
+                s2 * -0.5,
+                t * (t * 1.5 + -2.0),
+                -(s * (s * 1.5 + -2.0)),
+                t2 * 0.5,
+            ],
+        )
+    }
 }

@@ -4,7 +4,7 @@ use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::window::window_start;
-use crate::{Grid, Shape, Stencil, TILE, WINDOW_START};
+use crate::{Grid, OneByOne, Shape, Stencil, TILE, WINDOW_START, simd::EIGHT};
 
 /// Corners of a parallelepiped, the most a domain has.
 const MOST_CORNERS: usize = 8;
@@ -40,6 +40,7 @@ pub struct Corners<const D: usize> {
 
 impl<const D: usize> Shape<D> for Cpdi {
     type Stencil = Corners<D>;
+    type Stencils = OneByOne<Corners<D>>;
 
     fn name(&self) -> &'static str {
         "cpdi"
@@ -87,6 +88,21 @@ impl<const D: usize> Shape<D> for Cpdi {
             (f64::from(nodes) - local[axis]) * grid.spacing()
         });
         Some(corners)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        let mut stencils = [None; EIGHT];
+        for (place, stencil) in stencils.iter_mut().enumerate() {
+            *stencil = self.stencil(grid, tile, &x[place], &domain(place));
+        }
+        OneByOne(stencils)
     }
 
     fn reach(&self) -> (i32, i32) {

@@ -3,9 +3,10 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::axes::Axes;
-use crate::separable::Line;
-use crate::{Grid, Separable, Shape};
+use crate::axes::Numbers;
+use crate::separable::{Line, Profile};
+use crate::simd::EIGHT;
+use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// uGIMP: linear functions averaged over a cube of fixed size round the particle (Bardenhagen & Kober 2004).
 ///
@@ -19,6 +20,7 @@ const SLACK: f64 = 1e-9;
 
 impl<const D: usize> Shape<D> for Gimp {
     type Stencil = Separable<D, 3>;
+    type Stencils = SeparableStencils<D, 3>;
 
     fn name(&self) -> &'static str {
         "gimp"
@@ -32,14 +34,21 @@ impl<const D: usize> Shape<D> for Gimp {
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        let half = half_length(domain) * grid.inverse_spacing();
-        if !(0.0..=0.5 + SLACK).contains(&half) {
-            return None;
+        Separable::new(grid, tile, x, &Averaged::of(grid, domain)?)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        match Averaged::of(grid, &domain(0)) {
+            Some(averaged) => SeparableStencils::new(grid, tile, x, &averaged),
+            None => SeparableStencils::none(),
         }
-        // A point is the limit of a small box.
-        let half = half.clamp(f64::MIN_POSITIVE, 0.5);
-        let inverse = 0.5 / half;
-        Separable::new(grid, tile, x, |t| averaged(t, half, inverse))
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -48,6 +57,28 @@ impl<const D: usize> Shape<D> for Gimp {
 
     fn band(&self, spacing: f64) -> Band {
         Band::Uniform(spacing)
+    }
+}
+
+/// Linear functions averaged over a box of half-length `half` in (0, ½] cells.
+struct Averaged {
+    half: f64,
+    /// 1/(2 half).
+    inverse: f64,
+}
+
+impl Averaged {
+    /// `None` for a box that is too large.
+    #[inline(always)]
+    fn of<const D: usize>(grid: &Grid<D>, domain: &SMatrix<f64, D, D>) -> Option<Self> {
+        let half = half_length(domain) * grid.inverse_spacing();
+        if !(0.0..=0.5 + SLACK).contains(&half) {
+            return None;
+        }
+        // A point is the limit of a small box.
+        let half = half.clamp(f64::MIN_POSITIVE, 0.5);
+        let inverse = 0.5 / half;
+        Some(Self { half, inverse })
     }
 }
 
@@ -72,24 +103,27 @@ fn half_length<const D: usize>(edges: &SMatrix<f64, D, D>) -> f64 {
     }
 }
 
-/// Weights of the nearest node and the ones beside it for a box of half-length `l` in (0, ½] cells, `inverse` = 1/(2l).
-///
-/// Written with the distance `d` to the nearest node, so that small boxes lose no digits, and without branches, which
-/// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
-/// the kink is outside, and the rest of `d` acts as on linear functions.
-#[inline(always)]
-fn averaged(t: Axes, l: f64, inverse: f64) -> Line<3> {
-    let nearest = t.step(0.5);
-    let d = t - nearest;
-    let a = d.max(Axes::splat(-l)).min(Axes::splat(l));
-    let (left, right) = (-a + l, a + l);
-    let (below, above) = (left * inverse, right * inverse);
-    let zero = Axes::splat(0.0);
-    let low = below * left * 0.5 + (a - d).max(zero);
-    let high = above * right * 0.5 + (d - a).max(zero);
-    (
-        nearest + -1.0,
-        [low, -(low + high) + 1.0, high],
-        [-below, below - above, above],
-    )
+impl Profile<3> for Averaged {
+    /// Weights of the nearest node and the ones beside it for a box of half-length `l`.
+    ///
+    /// Written with the distance `d` to the nearest node, so that small boxes lose no digits, and without branches, which
+    /// particles would take at random: the node's kink cuts the box in parts of length l − a and l + a, one of them zero when
+    /// the kink is outside, and the rest of `d` acts as on linear functions.
+    #[inline(always)]
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<3, N> {
+        let (l, inverse) = (self.half, self.inverse);
+        let nearest = t.step(0.5);
+        let d = t - nearest;
+        let a = d.max(Numbers::splat(-l)).min(Numbers::splat(l));
+        let (left, right) = (-a + l, a + l);
+        let (below, above) = (left * inverse, right * inverse);
+        let zero = Numbers::splat(0.0);
+        let low = below * left * 0.5 + (a - d).max(zero);
+        let high = above * right * 0.5 + (d - a).max(zero);
+        (
+            nearest + -1.0,
+            [low, -(low + high) + 1.0, high],
+            [-below, below - above, above],
+        )
+    }
 }

@@ -3,8 +3,10 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::axes::Axes;
-use crate::{Grid, Separable, Shape};
+use crate::axes::Numbers;
+use crate::separable::{Line, Profile};
+use crate::simd::EIGHT;
+use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// Multilinear functions of the particle's position (Sulsky, Chen & Schreyer 1994). The domain is not used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,6 +14,7 @@ pub struct Linear;
 
 impl<const D: usize> Shape<D> for Linear {
     type Stencil = Separable<D, 2>;
+    type Stencils = SeparableStencils<D, 2>;
 
     fn name(&self) -> &'static str {
         "linear"
@@ -25,10 +28,18 @@ impl<const D: usize> Shape<D> for Linear {
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, |t| {
-            let (zero, one) = (Axes::splat(0.0), Axes::splat(1.0));
-            (zero, [one - t, t], [-one, one])
-        })
+        Separable::new(grid, tile, x, self)
+    }
+
+    #[inline(always)]
+    fn stencils(
+        &self,
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[SVector<f64, D>; EIGHT],
+        _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
+    ) -> Self::Stencils {
+        SeparableStencils::new(grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -37,5 +48,13 @@ impl<const D: usize> Shape<D> for Linear {
 
     fn band(&self, spacing: f64) -> Band {
         Band::Projected([spacing; 3])
+    }
+}
+
+impl Profile<2> for Linear {
+    #[inline(always)]
+    fn line<const N: usize>(&self, t: Numbers<N>) -> Line<2, N> {
+        let (zero, one) = (Numbers::splat(0.0), Numbers::splat(1.0));
+        (zero, [one - t, t], [-one, one])
     }
 }

@@ -1,7 +1,7 @@
 //! P22 determinism and P1 zero increment.
 
 use super::{gauge::Gauge, runner::Property, subject::Subject};
-use crate::{Material, MaterialError};
+use crate::{Band, EIGHT, EightPoints, Material, MaterialError, Matrix3};
 
 /// The same call gives the same bits, whatever was asked in between: the law holds nothing back.
 /// Bound: equality. (Threads and restarts are the solvers' part of P22.)
@@ -29,10 +29,43 @@ pub(super) fn determinism<M: Material>() -> Property<M> {
                 gauge.require(tangent == again, "the same call gave two tangents");
                 state = first.state;
             }
+            by_eights(subject, &gradients, &case.band, &mut gauge)?;
             Ok(gauge)
         },
         must_apply: true,
     }
+}
+
+/// What a law answers for eight points at once is what it answers for each, to the last bit.
+fn by_eights<M: Material>(
+    subject: &Subject<M>,
+    gradients: &[Matrix3<f64>],
+    band: &Band,
+    gauge: &mut Gauge,
+) -> Result<(), MaterialError> {
+    let at = |place: usize| gradients[place % gradients.len()];
+    let scale = subject.increment(at(0), at(0), band).external.scale;
+    let mut points = EightPoints::of(&at(0));
+    points.stiffness = [scale.stiffness; EIGHT];
+    points.strength = [scale.strength; EIGHT];
+    for place in 0..EIGHT {
+        points.set(place, &at(place));
+    }
+    let Some(eight) = subject.law.update_eight(&points) else {
+        return Ok(());
+    };
+    for place in 0..EIGHT {
+        let increment = subject.increment(at(place), at(place), band);
+        let old = subject.law.without_history(&at(place));
+        let one = subject.law.update(&increment, &old)?;
+        let speed = subject.law.wave_speed(&at(place), &one.state, &scale);
+        let same = one.stress == eight.stress(place)
+            && (one.stored, speed) == (eight.stored[place], eight.wave_speed[place]);
+        gauge.require(same, "eight at once are not what each is by itself");
+        let quiet = one.dissipated == 0.0 && one.state == old;
+        gauge.require(quiet, "a point of eight got a history");
+    }
+    Ok(())
 }
 
 /// A zero increment after any history leaves the state as it is, dissipates nothing and gives the

@@ -281,7 +281,14 @@ fn turn(planes: &mut [Plane], strain: &Sym) {
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
     const SPARSE: bool = true;
-    const NAMES: &'static [&'static str] = &["planes", "failed_planes", "opening"];
+    /// Energies are those of opening, J/m³, at a toughness scale of 1.
+    const NAMES: &'static [&'static str] = &[
+        "planes",
+        "failed_planes",
+        "opening",
+        "failed_energy",
+        "unfailed_energy",
+    ];
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
@@ -381,5 +388,12 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         out[0] = planes.len() as f64;
         out[1] = planes.iter().filter(|plane| plane.failed).count() as f64;
         out[2] = planes.iter().map(|plane| plane.opening).fold(0.0, f64::max);
+        let energy = |failed: bool| -> f64 {
+            let these = planes.iter().filter(|plane| plane.failed == failed);
+            let spent = these
+                .map(|plane| self.decohesion.dissipated_fraction(plane.softened) / plane.width);
+            spent.sum::<f64>() * self.decohesion.toughness()
+        };
+        (out[3], out[4]) = (energy(true), energy(false));
     }
 }

@@ -5,6 +5,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
+use super::averages::Averages;
 use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
 use super::links::Links;
@@ -16,13 +17,15 @@ use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
-/// Trial motion and stresses for nodal displacements, and tangents where there is room for them.
+/// Trial motion and stresses for nodal displacements, with averaged volume changes or without, and tangents
+/// where there is room for them.
 pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
     band: BandSource,
     dt: f64,
+    averages: Option<&Averages<D>>,
     mut tangents: Option<&mut [Vec<Tangent>]>,
 ) -> Result<SweepTotals, SolveError> {
     let (step, time) = (scene.step() + 1, scene.time());
@@ -31,6 +34,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
         let kernel = DisplacementKernel {
             transfers,
             displacement,
+            factors: averages.map(|averages| averages.factors[index].as_slice()),
             half_edges: *body.half_edges(),
             dt,
         };
@@ -38,6 +42,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
             dt,
             band: band.band(transfers.shape, transfers.grid, body),
             viscosity: None,
+            simd: transfers.simd,
         };
         let runs = &transfers.placement.runs[index];
         let part = match tangents.as_mut() {
@@ -66,14 +71,12 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
 pub(crate) fn external_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
     scene: &Scene<D>,
-    masses: &NodeSums<D>,
+    masses: &[f64],
     time: f64,
 ) -> Result<Vec<SVector<f64, D>>, (usize, usize)> {
     let loads = Loads::new(transfers, scene, time)?;
-    let nodes = 0..masses.len();
-    Ok(nodes
-        .map(|node| loads.at(node, masses.mass(node)))
-        .collect())
+    let nodes = masses.iter().enumerate();
+    Ok(nodes.map(|(node, &mass)| loads.at(node, mass)).collect())
 }
 
 /// When internal forces are wanted.
@@ -92,7 +95,7 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     sums: &mut NodeSums<D>,
     at: At,
 ) -> Result<(), (usize, usize)> {
-    transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
+    transfers.spread::<true>(scene, sums, |body: &Body<D>, i| {
         let particles = body.particles();
         let motion = match at {
             At::Start => &particles.motion,
@@ -105,9 +108,9 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
         let mut gift = Gift::default();
         add_stress(&mut gift, transfers.kinematics, stress, volume, x);
         // Gradients at the end of the step from those at its start.
-        let at_start = gift.gradient;
+        let at_start = gift.sloped;
         let relative = relative::<D>(f_new, f_old);
-        for (j, gradient) in gift.gradient.iter_mut().enumerate() {
+        for (j, gradient) in gift.sloped.iter_mut().enumerate() {
             for (c, number) in gradient.iter_mut().enumerate() {
                 *number = (0..D).map(|k| at_start[k][c] * relative[(k, j)]).sum();
             }

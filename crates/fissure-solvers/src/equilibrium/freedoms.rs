@@ -38,13 +38,12 @@ impl<const D: usize> Freedoms<D> {
         }
     }
 
-    /// Takes the held components out of a system `A x = b`, which is then one of the components
-    /// along each held node's own directions.
-    pub(crate) fn take_out(&self, matrix: &mut BlockMatrix<D>, right: &mut [f64]) {
+    /// Takes the held components out of a matrix, which is then one of the components along each held
+    /// node's own directions; right sides are to be [turned](Self::turn).
+    pub(crate) fn take_out(&self, matrix: &mut BlockMatrix<D>) {
         for hold in &self.holds {
             matrix.hold(hold.number, &hold.directions, hold.held);
         }
-        self.turn(right);
     }
 
     /// From components along the axes to those along the held nodes' own directions, with the held ones

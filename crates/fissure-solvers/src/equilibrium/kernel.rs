@@ -13,6 +13,8 @@ pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
     pub transfers: &'a Transfers<'a, S, D>,
     /// Displacement increments, m.
     pub displacement: &'a [SVector<f64, D>],
+    /// Factors on the deformation gradients, one a particle, where volume changes are averaged.
+    pub factors: Option<&'a [f64]>,
     pub half_edges: SMatrix<f64, D, D>,
     pub dt: f64,
 }
@@ -49,6 +51,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         let DisplacementKernel {
             transfers,
             displacement,
+            factors,
             half_edges,
             dt,
         } = self.step;
@@ -72,6 +75,14 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
                 for j in 0..3 {
                     for k in 0..D {
                         f[(i, j)] += gradient_sum[(i, k)] * f_old[(k, j)];
+                    }
+                }
+            }
+            if let Some(factors) = factors {
+                let factor = factors[run.start as usize + row];
+                for i in 0..D {
+                    for j in 0..3 {
+                        f[(i, j)] *= factor;
                     }
                 }
             }

@@ -7,8 +7,10 @@ use std::collections::HashSet;
 
 use fissure_grid::{Shape, Stencil};
 use fissure_scene::Scene;
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
+use super::averages::Averages;
+use super::stiffness::relative;
 use crate::linear::BlockPattern;
 use crate::transfers::Transfers;
 
@@ -50,6 +52,8 @@ pub(crate) struct Links<const D: usize> {
     members: Vec<Member>,
     member_starts: Vec<u32>,
     links: Vec<Link<D>>,
+    /// Means over the patches, where wanted.
+    pub averages: Option<Averages<D>>,
 }
 
 /// A patch.
@@ -59,12 +63,27 @@ pub(crate) struct Patch<'a, const D: usize> {
     /// Its particles.
     pub members: &'a [Member],
     links: &'a [Link<D>],
+    /// Mean gradients of its nodes, or nothing.
+    pub means: &'a [SVector<f64, D>],
+    factors: &'a [Vec<f64>],
 }
 
 impl<const D: usize> Patch<'_, D> {
     /// Links of a particle to the nodes of the patch.
     pub(crate) fn links(&self, member: &Member) -> &[Link<D>] {
         &self.links[member.first as usize..member.first as usize + self.nodes.len()]
+    }
+
+    /// `f⁻ᵀ` of a particle's own deformation in the step: takes gradients to its end.
+    pub(crate) fn relative(&self, member: &Member, scene: &Scene<D>) -> SMatrix<f64, D, D> {
+        let (body, row) = (member.body as usize, member.index as usize);
+        let particles = scene.bodies()[body].particles();
+        let f_old = &particles.motion.deformation_gradient[row];
+        let averaged = relative(&particles.trial.deformation_gradient[row], f_old);
+        match self.factors.get(body) {
+            Some(factors) => averaged * factors[row],
+            None => averaged,
+        }
     }
 }
 
@@ -229,6 +248,14 @@ impl<const D: usize> Links<D> {
             nodes: &self.nodes[range(&self.node_starts)],
             members: &self.members[range(&self.member_starts)],
             links: &self.links,
+            means: match &self.averages {
+                Some(averages) => averages.means.get(range(&self.node_starts)).unwrap_or(&[]),
+                None => &[],
+            },
+            factors: match &self.averages {
+                Some(averages) => &averages.factors,
+                None => &[],
+            },
         }
     }
 

@@ -221,6 +221,8 @@ const CHUNK: usize = 64;
 /// stresses that answer them.
 struct Strained<'a, const D: usize, const V: usize> {
     links: &'a [Link<D>],
+    /// Mean gradients of the links' nodes over the patch, or nothing.
+    means: &'a [SVector<f64, D>],
     /// `f⁻ᵀ`: takes gradients to the end of the step.
     relative: SMatrix<f64, D, D>,
     /// The tangent times the volume.
@@ -241,7 +243,6 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
     ) -> Self {
         let (body, index) = (member.body as usize, member.index as usize);
         let particles = scene.bodies()[body].particles();
-        let f_old = &particles.motion.deformation_gradient[index];
         let f_new = &particles.trial.deformation_gradient[index];
         let volume = particles.volume[index] * f_new.determinant();
         let stress = &particles.trial.stress[index];
@@ -250,7 +251,8 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
         let full = stress.to_matrix();
         Self {
             links: patch.links(member),
-            relative: relative(f_new, f_old),
+            means: patch.means,
+            relative: patch.relative(member, scene),
             tangent: SMatrix::from_fn(|i, j| tangent[(component(i), component(j))] * volume),
             stress: SMatrix::from_fn(|i, j| full[(i, j)] * volume),
             hoop_stress: stress.zz() * volume,
@@ -258,7 +260,24 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
         }
     }
 
-    /// Strains of unit displacements of a node along the axes.
+    /// Gradient of a link's node at the end of the step, and the strains of unit displacements of the node along
+    /// the axes.
+    #[inline]
+    fn of_link(&self, link: usize) -> (SVector<f64, D>, SMatrix<f64, V, D>) {
+        let gradient = self.relative * self.links[link].gradient;
+        let mut strain = self.strain(&gradient, self.links[link].weight);
+        if let Some(mean) = self.means.get(link) {
+            let volumetric = (mean - gradient) / D as f64;
+            for column in 0..D {
+                for axis in 0..D {
+                    strain[(axis, column)] += volumetric[column];
+                }
+            }
+        }
+        (gradient, strain)
+    }
+
+    /// The strains without what the patch's mean adds.
     #[inline]
     fn strain(&self, gradient: &SVector<f64, D>, weight: f64) -> SMatrix<f64, V, D> {
         let mut strain = SMatrix::<f64, V, D>::zeros();
@@ -283,36 +302,35 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
         let mut strain = SMatrix::<f64, V, 1>::zeros();
         let mut gradient_sum = SMatrix::<f64, D, D>::zeros();
         let mut radial = 0.0;
-        for (link, &node) in self.links.iter().zip(nodes) {
+        for (place, &node) in nodes.iter().enumerate() {
             let first = D * node as usize;
             let u = SVector::<f64, D>::from_column_slice(&x[first..first + D]);
-            let gradient = self.relative * link.gradient;
-            strain += self.strain(&gradient, link.weight) * u;
+            let (gradient, of_unit) = self.of_link(place);
+            strain += of_unit * u;
             gradient_sum += u * gradient.transpose();
-            radial += link.weight * u[0];
+            radial += self.links[place].weight * u[0];
         }
         let stress = self.tangent * strain;
         let turning = gradient_sum * self.stress;
         let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress * radial;
-        for (link, force) in self.links.iter().zip(forces) {
-            let gradient = self.relative * link.gradient;
-            *force += self.strain(&gradient, link.weight).tr_mul(&stress) + turning * gradient;
-            force[0] += hoop * link.weight;
+        for (place, force) in forces.iter_mut().enumerate() {
+            let (gradient, of_unit) = self.of_link(place);
+            *force += of_unit.tr_mul(&stress) + turning * gradient;
+            force[0] += hoop * self.links[place].weight;
         }
     }
 
     /// Adds the blocks of every node with itself.
     fn add_diagonal(&self, blocks: &mut [SMatrix<f64, D, D>]) {
         let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress;
-        for (link, block) in self.links.iter().zip(blocks) {
-            let gradient = self.relative * link.gradient;
-            let strain = self.strain(&gradient, link.weight);
+        for (place, block) in blocks.iter_mut().enumerate() {
+            let (gradient, strain) = self.of_link(place);
             *block += strain.tr_mul(&(self.tangent * strain));
             let turning = gradient.dot(&(self.stress * gradient));
             for axis in 0..D {
                 block[(axis, axis)] += turning;
             }
-            block[(0, 0)] += hoop * link.weight * link.weight;
+            block[(0, 0)] += hoop * self.links[place].weight.powi(2);
         }
     }
 
@@ -323,10 +341,7 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
         nodes: &mut Vec<(SVector<f64, D>, SMatrix<f64, V, D>)>,
     ) {
         nodes.clear();
-        nodes.extend(self.links.iter().map(|link| {
-            let gradient = self.relative * link.gradient;
-            (gradient, self.strain(&gradient, link.weight))
-        }));
+        nodes.extend((0..self.links.len()).map(|place| self.of_link(place)));
         let count = nodes.len();
         let hoop = self.inverse_radius * self.inverse_radius * self.hoop_stress;
         // The law's tangent need not be symmetric: rows test, columns answer.

@@ -156,27 +156,30 @@ impl<const D: usize> System<D> {
             .then_some(changes)
     }
 
-    /// Solves `J δu = force − J δu_held` by a factorisation; returns the free components of `δu` of the
-    /// active nodes. `held` has the changes of the held components, as vectors of all nodes.
-    #[allow(clippy::too_many_arguments)] // The system is made of all of them.
-    pub(crate) fn correct<S: Shape<D>>(
+    /// Solves `J δu = force − J δu_held` by one factorisation for every pair of forces (on the active nodes)
+    /// and changes of what is held (vectors of all nodes); returns the free components of each `δu` of the
+    /// active nodes.
+    pub(crate) fn correct<S: Shape<D>, const N: usize>(
         &mut self,
         scene: &Scene<D>,
         transfers: &Transfers<'_, S, D>,
         tangents: &[Vec<Tangent>],
         jacobian: Jacobian<'_>,
-        mut force: Vec<f64>,
-        held: &[SVector<f64, D>],
+        rights: [(Vec<f64>, &[SVector<f64, D>]); N],
         damping: f64,
-    ) -> Result<Vec<f64>, LinearError> {
+    ) -> Result<[Vec<f64>; N], LinearError> {
         self.assemble(scene, tangents);
-        let changes = self.held_changes(held);
+        let changes = rights.each_ref().map(|(_, held)| self.held_changes(held));
+        let mut forces = rights.map(|(force, _)| force);
         let matrix = &mut self.stiffness.matrix;
         jacobian.complete(matrix);
-        if let Some(changes) = changes {
-            take_off(&mut force, |product| matrix.multiply(&changes, product));
+        for (force, changes) in forces.iter_mut().zip(changes) {
+            if let Some(changes) = changes {
+                take_off(force, |product| matrix.multiply(&changes, product));
+            }
+            self.freedoms.turn(force);
         }
-        self.freedoms.take_out(matrix, &mut force);
+        self.freedoms.take_out(matrix);
         let direct = match &mut self.direct {
             Some(direct) => direct,
             none => {
@@ -185,9 +188,11 @@ impl<const D: usize> System<D> {
             }
         };
         direct.factorise(matrix, damping)?;
-        direct.solve(matrix, &mut force)?;
-        self.freedoms.turn_back(&mut force);
-        Ok(force)
+        for force in &mut forces {
+            direct.solve(matrix, force)?;
+            self.freedoms.turn_back(force);
+        }
+        Ok(forces)
     }
 
     /// Negative pivots of the last factorisation.
@@ -214,7 +219,8 @@ impl<const D: usize> System<D> {
         if let Some(changes) = changes {
             take_off(&mut force, |product| matrix.multiply(&changes, product));
         }
-        self.freedoms.take_out(matrix, &mut force);
+        self.freedoms.turn(&mut force);
+        self.freedoms.take_out(matrix);
         let preconditioner: Box<dyn Preconditioner> = match iterative.preconditioner {
             Preconditioning::None => Box::new(Identity),
             Preconditioning::Mass => Box::new(jacobian.mass_preconditioner::<D>()),
@@ -280,8 +286,7 @@ impl<const D: usize> System<D> {
     ) -> Result<NodeBlocks<D>, LinearError> {
         let mut diagonal = diagonal_blocks(&self.links, scene, tangents);
         jacobian.complete(&mut diagonal);
-        let mut nothing = vec![0.0; diagonal.size()];
-        self.freedoms.take_out(&mut diagonal, &mut nothing);
+        self.freedoms.take_out(&mut diagonal);
         NodeBlocks::new(&diagonal)
     }
 }

@@ -82,7 +82,7 @@ impl<const D: usize> NodeForces<'_, D> {
             energy,
             reactions,
             contact_forces: self.meetings.forces(scene, &impulses, dt),
-            iterations: 0,
+            ..Report::default()
         }
     }
 

@@ -1,10 +1,9 @@
 //! From nodes to particles and on to the nodes again, tile by tile.
 
-use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use fissure_grid::simd::{Lanes, SimdTask};
-use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencil};
+use fissure_grid::simd::{EIGHT, Lanes, SimdTask};
+use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -12,7 +11,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 use super::settings::Transfer;
 use crate::nodes::{Field, MASSIVE, NodeSums, vector};
 use crate::transfers::{Transfers, add_stress, momentum_gift};
-use crate::window::WindowSums;
+use crate::window::{CUBE, SQUARE, WindowSums};
 
 /// What particles give to the nodes at the end of a pass over them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,8 +59,8 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
         work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         match D {
-            2 => self.on_window_of::<64, 65>(window, work),
-            _ => self.on_window_of::<512, 513>(window, work),
+            2 => self.on_window_of::<SQUARE, 65>(window, work),
+            _ => self.on_window_of::<CUBE, 513>(window, work),
         }
     }
 }
@@ -115,40 +114,29 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
-        let pass = self.pass;
+        let (pass, simd) = (self.pass, self.pass.transfers.simd);
         let affine = pass.moves && pass.is_affine();
         let moments = affine && pass.affine_inverse.is_some();
-        let gradients = pass.strains || affine;
-        let gathered = match (gradients, moments) {
-            (_, true) => pass
-                .transfers
-                .simd
-                .run(GatherRun::<'_, '_, '_, '_, S, D, true, true> {
-                    tile: self,
-                    constants,
-                    old,
-                    new,
-                }),
-            (true, false) => {
-                pass.transfers
-                    .simd
-                    .run(GatherRun::<'_, '_, '_, '_, S, D, true, false> {
+        macro_rules! gather {
+            ($moves:literal, $strains:literal, $gradient:literal, $moment:literal) => {
+                simd.run(
+                    GatherRun::<'_, '_, '_, '_, S, D, $moves, $strains, $gradient, $moment> {
                         tile: self,
                         constants,
                         old,
                         new,
-                    })
-            }
-            (false, false) => {
-                pass.transfers
-                    .simd
-                    .run(GatherRun::<'_, '_, '_, '_, S, D, false, false> {
-                        tile: self,
-                        constants,
-                        old,
-                        new,
-                    })
-            }
+                    },
+                )
+            };
+        }
+        // What is known when this is compiled is not asked for each particle, and sums stay where they are made.
+        let gathered = match (pass.moves, pass.strains, affine, moments) {
+            (false, ..) => gather!(false, true, true, false),
+            (true, true, _, false) => gather!(true, true, true, false),
+            (true, true, _, true) => gather!(true, true, true, true),
+            (true, false, false, _) => gather!(true, false, false, false),
+            (true, false, true, false) => gather!(true, false, true, false),
+            (true, false, true, true) => gather!(true, false, false, true),
         };
         gathered.map_err(|row| KernelFailure {
             index: run.start as usize + row,
@@ -185,15 +173,34 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
     }
 }
 
-struct GatherRun<'t, 'a, 'c, 'n, S, const D: usize, const GRADIENT: bool, const MOMENT: bool> {
+/// Gathers and does what the pass is for: `MOVES` and `STRAINS` as in [`Pass`](super::phases::Pass), with sums by
+/// `GRADIENT` and `MOMENT`.
+struct GatherRun<
+    't,
+    'a,
+    'c,
+    'n,
+    S,
+    const D: usize,
+    const MOVES: bool,
+    const STRAINS: bool,
+    const GRADIENT: bool,
+    const MOMENT: bool,
+> {
     tile: &'t mut Tile<'a, S, D>,
     constants: &'c RunConstants<'c>,
     old: &'c MotionSlices<'c, D>,
     new: &'c mut MotionSlicesMut<'n, D>,
 }
 
-impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> SimdTask
-    for GatherRun<'_, '_, '_, '_, S, D, GRADIENT, MOMENT>
+impl<
+    S: Shape<D>,
+    const D: usize,
+    const MOVES: bool,
+    const STRAINS: bool,
+    const GRADIENT: bool,
+    const MOMENT: bool,
+> SimdTask for GatherRun<'_, '_, '_, '_, S, D, MOVES, STRAINS, GRADIENT, MOMENT>
 {
     /// The row of a particle that reaches off the grid or its tile's window.
     type Output = Result<(), usize>;
@@ -207,39 +214,49 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
             new,
         } = self;
         let pass = tile.pass;
-        for row in 0..old.len() {
-            let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
-            let stencil = pass
+        for first in (0..old.len()).step_by(EIGHT) {
+            let (x, f) = (&old.position[first..], &old.deformation_gradient[first..]);
+            let stencils = pass
                 .transfers
-                .stencil_at(&pass.half_edges, tile.coordinates, x, f)
-                .ok_or(row)?;
-            // Kept from the compiler, which else sinks each sum into the branch that uses it and
-            // spills everything they share.
-            let gathered = black_box(stencil.gather::<L, GRADIENT, MOMENT>(lanes, tile.field));
-            if pass.moves {
-                let carried = tile.carried.map(|carried| {
-                    vector(&stencil.gather::<L, false, false>(lanes, carried).value)
-                });
-                pass.move_particle(row, &gathered, carried, old, new);
-                if !pass.transfers.grid.contains(&new.position[row]) {
-                    return Err(row);
+                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            let rows = first..(first + EIGHT).min(old.len());
+            for row in rows.clone() {
+                let place = row - first;
+                if !stencils.fits(place) {
+                    return Err(pass.first_outside(first..row, new).unwrap_or(row));
+                }
+                let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, place, tile.field);
+                if MOVES {
+                    let carried = tile.carried.map(|carried| {
+                        stencils
+                            .gather::<L, false, false>(lanes, place, carried)
+                            .value
+                    });
+                    pass.move_particle(lanes, row, &gathered, carried, old, new);
+                    if MOMENT || (GRADIENT && pass.is_affine()) {
+                        new.affine[row] = pass.affine_part::<L, MOMENT>(lanes, &gathered);
+                    }
+                }
+                if STRAINS {
+                    let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
+                    new.deformation_gradient[row] = pass.strained(lanes, &gathered, x, f);
+                }
+                if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
+                    let affine = if MOMENT || GRADIENT {
+                        new.affine.get(row)
+                    } else {
+                        None
+                    };
+                    let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
+                    if affine.is_some() {
+                        stencils.scatter::<L, true>(lanes, place, &gift, tile.sums);
+                    } else {
+                        stencils.scatter::<L, false>(lanes, place, &gift, tile.sums);
+                    }
                 }
             }
-            if pass.strains {
-                new.deformation_gradient[row] = pass.strained(&gathered, x, f);
-            }
-            if pass.giving == Giving::MomentumBack {
-                let affine = if MOMENT || GRADIENT {
-                    new.affine.get(row)
-                } else {
-                    None
-                };
-                let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
-                if affine.is_some() {
-                    stencil.scatter::<L, false, true>(lanes, &gift, tile.sums);
-                } else {
-                    stencil.scatter::<L, false, false>(lanes, &gift, tile.sums);
-                }
+            if MOVES && let Some(row) = pass.first_outside(rows, new) {
+                return Err(row);
             }
         }
         Ok(())
@@ -272,47 +289,74 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
         // Straining alone leaves the velocities of the trial as they were.
         let velocity = if back { old } else { new };
         let forces = pass.giving != Giving::MomentumOn;
-        for row in 0..new.len() {
-            let x = &place.position[row];
+        for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
-            let f = &place.deformation_gradient[row];
-            let stencil = pass
+            let (x, f) = (
+                &place.position[first..],
+                &place.deformation_gradient[first..],
+            );
+            let stencils = pass
                 .transfers
-                .stencil_at(&pass.half_edges, tile.coordinates, x, f);
-            let Some(stencil) = stencil else {
-                pass.strayed.store(true, Relaxed);
-                continue;
-            };
-            let affine = if AFFINE {
-                velocity.affine.get(row)
-            } else {
-                None
-            };
-            let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
-            if forces {
-                let volume = constants.volume[row] * new.deformation_gradient[row].determinant();
-                let stress = &new.stress[row];
-                add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
-                stencil.scatter::<L, true, AFFINE>(lanes, &gift, tile.sums);
-            } else {
-                stencil.scatter::<L, false, AFFINE>(lanes, &gift, tile.sums);
+                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
+            for row in first..(first + EIGHT).min(new.len()) {
+                if !stencils.fits(row - first) {
+                    pass.strayed.store(true, Relaxed);
+                    continue;
+                }
+                let affine = if AFFINE {
+                    velocity.affine.get(row)
+                } else {
+                    None
+                };
+                let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
+                if forces {
+                    let volume =
+                        constants.volume[row] * new.deformation_gradient[row].determinant();
+                    let (stress, x) = (&new.stress[row], &place.position[row]);
+                    add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
+                }
+                if forces || AFFINE {
+                    stencils.scatter::<L, true>(lanes, row - first, &gift, tile.sums);
+                } else {
+                    stencils.scatter::<L, false>(lanes, row - first, &gift, tile.sums);
+                }
             }
         }
     }
 }
 
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
+    /// The first of these rows that the trial has outside the grid.
     #[inline(always)]
-    fn move_particle(
+    fn first_outside(
         &self,
+        mut rows: std::ops::Range<usize>,
+        new: &MotionSlicesMut<'_, D>,
+    ) -> Option<usize> {
+        let grid = self.transfers.grid;
+        let mut all_inside = true;
+        for x in &new.position[rows.clone()] {
+            all_inside &= grid.contains(x);
+        }
+        if all_inside {
+            return None;
+        }
+        rows.find(|&row| !grid.contains(&new.position[row]))
+    }
+
+    #[inline(always)]
+    fn move_particle<L: Lanes>(
+        &self,
+        lanes: L,
         row: usize,
-        gathered: &Gathered<D>,
-        carried: Option<SVector<f64, D>>,
+        gathered: &Gathered<L::Four, D>,
+        carried: Option<L::Four>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) {
-        let end: SVector<f64, D> = vector(&gathered.value);
+        let end: SVector<f64, D> = vector(&lanes.store4(gathered.value));
         new.position[row] = old.position[row] + end * self.dt;
+        let carried = carried.map(|carried| vector(&lanes.store4(carried)));
         new.velocity[row] = match (self.transfer, carried) {
             (Transfer::Flip { pic }, Some(gain)) => {
                 (old.velocity[row] + gain) * (1.0 - pic) + end * pic
@@ -320,35 +364,53 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             (_, Some(filtered)) => filtered,
             (_, None) => end,
         };
-        if self.is_affine() {
-            new.affine[row] = match self.affine_inverse {
-                Some(inverse) => SMatrix::from_fn(|i, j| gathered.moment[j][i] * inverse),
-                None => gradient(gathered),
-            };
-        }
+    }
+
+    /// By the moments on splines, else the velocity gradient.
+    #[inline(always)]
+    fn affine_part<L: Lanes, const MOMENT: bool>(
+        &self,
+        lanes: L,
+        gathered: &Gathered<L::Four, D>,
+    ) -> SMatrix<f64, D, D> {
+        let columns = if MOMENT {
+            scaled(lanes, &gathered.moment, self.affine_inverse.unwrap_or(0.0))
+        } else {
+            gradient(lanes, gathered)
+        };
+        matrix(lanes, &columns)
     }
 
     #[inline(always)]
-    fn strained(
+    fn strained<L: Lanes>(
         &self,
-        gathered: &Gathered<D>,
+        lanes: L,
+        gathered: &Gathered<L::Four, D>,
         x: &SVector<f64, D>,
         f_old: &Matrix3<f64>,
     ) -> Matrix3<f64> {
-        let change = gradient(gathered) * self.dt;
-        let mut step = SMatrix::<f64, D, D>::identity() + change;
-        let mut f = *f_old;
+        let mut change = scaled(lanes, &gradient(lanes, gathered), self.dt);
         if self.backward {
-            let inverse = (SMatrix::<f64, D, D>::identity() - change).try_inverse();
-            step = inverse.unwrap_or(step);
+            let one = SMatrix::<f64, D, D>::identity();
+            if let Some(inverse) = (one - matrix(lanes, &change)).try_inverse() {
+                change = columns(lanes, &(inverse - one));
+            }
         }
-        for i in 0..D {
-            for j in 0..3 {
-                f[(i, j)] = (0..D).map(|k| step[(i, k)] * f_old[(k, j)]).sum();
+        // Columns of F with a fourth number that is not used.
+        let mut f = *f_old;
+        for k in 0..3 {
+            let mut column = lanes.load4([f_old[(0, k)], f_old[(1, k)], f_old[(2, k)], 0.0]);
+            for j in 0..D {
+                column = lanes.mul_add4(change[j], lanes.splat4(f_old[(j, k)]), column);
+            }
+            let column = lanes.store4(column);
+            for i in 0..3 {
+                f[(i, k)] = column[i];
             }
         }
         if self.transfers.kinematics == Kinematics::Axisymmetric {
-            let hoop = 1.0 + self.dt * gathered.value[0] / x[0];
+            let radial = lanes.store4(gathered.value)[0];
+            let hoop = 1.0 + self.dt * radial / x[0];
             f.m33 *= if self.backward {
                 1.0 / (2.0 - hoop)
             } else {
@@ -359,12 +421,51 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     }
 }
 
-/// Velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node without
-/// mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
+/// Columns of the velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node
+/// without mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
 #[inline(always)]
-fn gradient<const D: usize>(gathered: &Gathered<D>) -> SMatrix<f64, D, D> {
-    SMatrix::from_fn(|i, j| {
-        let column = &gathered.gradient[j];
-        column[i] - gathered.value[i] * column[MASSIVE]
-    })
+fn gradient<L: Lanes, const D: usize>(lanes: L, gathered: &Gathered<L::Four, D>) -> [L::Four; D] {
+    let mut columns = gathered.gradient;
+    for column in &mut columns {
+        let massive = lanes.store4(*column)[MASSIVE];
+        *column = lanes.mul_add4(gathered.value, lanes.splat4(-massive), *column);
+    }
+    columns
+}
+
+/// Columns times a number.
+#[inline(always)]
+fn scaled<L: Lanes, const D: usize>(lanes: L, columns: &[L::Four; D], factor: f64) -> [L::Four; D] {
+    let mut scaled = *columns;
+    for column in &mut scaled {
+        *column = lanes.mul4(*column, lanes.splat4(factor));
+    }
+    scaled
+}
+
+/// The matrix of these columns.
+#[inline(always)]
+fn matrix<L: Lanes, const D: usize>(lanes: L, columns: &[L::Four; D]) -> SMatrix<f64, D, D> {
+    let mut matrix = SMatrix::zeros();
+    for j in 0..D {
+        let column = lanes.store4(columns[j]);
+        for i in 0..D {
+            matrix[(i, j)] = column[i];
+        }
+    }
+    matrix
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+fn columns<L: Lanes, const D: usize>(lanes: L, matrix: &SMatrix<f64, D, D>) -> [L::Four; D] {
+    let mut columns = [lanes.splat4(0.0); D];
+    for j in 0..D {
+        let mut column = [0.0; 4];
+        for i in 0..D {
+            column[i] = matrix[(i, j)];
+        }
+        columns[j] = lanes.load4(column);
+    }
+    columns
 }

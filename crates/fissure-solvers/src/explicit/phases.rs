@@ -31,6 +31,8 @@ pub(crate) struct Phases<'a, S, const D: usize> {
     /// Time at its start, s.
     pub time: f64,
     pub strayed: &'a AtomicBool,
+    /// kg.
+    pub mean_particle_mass: f64,
     /// Where bodies with a contact meet.
     pub meetings: &'a Meetings<D>,
 }
@@ -70,7 +72,7 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
         }
         gift
     };
-    let spread = if affine {
+    let spread = if affine || forces {
         transfers.spread::<true>(scene, sums, give)
     } else {
         transfers.spread::<false>(scene, sums, give)
@@ -107,7 +109,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             loads: &loads,
             constraints: self.constraints,
             meetings: self.meetings,
-            lightest: self.settings.mass_cutoff.max(NO_MASS) * mean_particle_mass(scene),
+            lightest: self.settings.mass_cutoff.max(NO_MASS) * self.mean_particle_mass,
             dt: self.dt,
         };
         let gains = matches!(
@@ -195,6 +197,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
                 dt: self.dt,
                 band: self.settings.band.band(shape, grid, body),
                 viscosity: self.viscosity(),
+                simd: self.transfers.simd,
             };
             let part = body
                 .sweep(runs, &kernel, &sweep)

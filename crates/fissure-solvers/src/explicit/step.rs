@@ -39,6 +39,8 @@ pub struct Explicit<S, const D: usize> {
     nodes: Nodes,
     meetings: Meetings<D>,
     release: Release<D>,
+    /// kg; found when the scene was edited.
+    mean_particle_mass: f64,
     /// Fastest wave plus fastest particle, m/s; `None` before the first step.
     fastest: Option<f64>,
     /// Whether `fastest` was recalled from a checkpoint and the scene restored after.
@@ -64,6 +66,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             nodes: Nodes::default(),
             meetings: Meetings::default(),
             release: Release::default(),
+            mean_particle_mass: 0.0,
             fastest: None,
             recalled: false,
         })
@@ -93,6 +96,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
                 self.fastest = None;
             }
             check_columns(scene)?;
+            self.mean_particle_mass = mean_particle_mass(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
             if self.settings.transfer == Transfer::Apic {
                 for body in scene.bodies_mut() {
@@ -167,6 +171,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             strayed,
             meetings,
             release,
+            mean_particle_mass,
             ..
         } = self;
         // Nodes are held at the velocities of the end of the step.
@@ -192,6 +197,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             step: scene.step() + 1,
             time: scene.time(),
             strayed,
+            mean_particle_mass: *mean_particle_mass,
         };
         if !std::mem::take(&mut self.summed) {
             to_grid(&phases.transfers, settings, scene, sums)?;
@@ -214,7 +220,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
-        let light = LIGHT * mean_particle_mass(scene);
+        let light = LIGHT * phases.mean_particle_mass;
         let cracks = carried(scene, grid, placement, |node| {
             let (mass, end) = (sums.mass(node), &nodes.end[node]);
             (end[MASSIVE] > 0.0).then(|| (mass / (mass + light), vector(end) * dt))
@@ -262,7 +268,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             body.commit()?;
         }
         self.summed = !*strayed.get_mut();
-        let (kinetic, fastest) = kinetic_energy_and_speed(scene);
+        let (kinetic, fastest) = match stress_update {
+            // The particles were moved after the sweep.
+            StressUpdate::First => kinetic_energy_and_speed(scene),
+            _ => (totals.kinetic, totals.speed_squared.sqrt()),
+        };
         self.fastest = Some(totals.wave_speed + fastest);
         report.energy = StepEnergy {
             stored: totals.stored,

@@ -9,9 +9,7 @@ mod newton;
 mod particles;
 mod scheme;
 mod settings;
-mod statistics;
 mod step;
 
 pub use settings::{ImplicitSettings, Integration};
-pub use statistics::{NewtonStop, StepStatistics};
 pub use step::Implicit;

@@ -7,16 +7,17 @@
 
 use fissure_grid::Shape;
 use fissure_materials::Tangent;
-use fissure_scene::{Scene, SolveError, SweepTotals};
+use fissure_scene::{NewtonStop, Scene, SolveError, SweepTotals};
 use nalgebra::SVector;
 
 use super::scheme::{End, Scheme, Start};
 use super::settings::ImplicitSettings;
-use super::statistics::{NewtonStop, StepStatistics};
 use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::equilibrium::balance::{At, internal_forces, strain};
 use crate::equilibrium::choice::{Iterative, LinearSolver, Preconditioning, Product};
+use crate::equilibrium::failure::Failure;
+use crate::equilibrium::statistics::StepStatistics;
 use crate::equilibrium::stiffness::times;
 use crate::equilibrium::system::{Jacobian, Multiply, NoCorrection, System};
 use crate::linear::{Identity, Preconditioner, norm};
@@ -27,7 +28,7 @@ use crate::transfers::Transfers;
 const HALVINGS: usize = 8;
 /// Share of the expected fall of the residual that a correction must bring (Armijo).
 const ARMIJO: f64 = 1e-4;
-/// Unbalanced forces below this share of `m u c` are round-off.
+/// Failure forces below this share of `m u c` are round-off.
 const ROUND_OFF: f64 = 1e-14;
 
 /// A step of given length from a given state.
@@ -85,13 +86,6 @@ pub(super) struct Balanced {
     pub iterations: usize,
 }
 
-/// Why there is none.
-pub(super) struct Unbalanced {
-    pub stop: NewtonStop,
-    pub residual: f64,
-    pub refused: Option<SolveError>,
-}
-
 impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
     /// Iterates from `displacement`, which holds the balanced one afterwards.
     pub(super) fn solve(
@@ -102,11 +96,11 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         tangents: &mut [Vec<Tangent>],
         displacement: &mut Vec<SVector<f64, D>>,
         statistics: &mut StepStatistics,
-    ) -> Result<Balanced, Unbalanced> {
+    ) -> Result<Balanced, Failure> {
         let mut held = self.held_changes(displacement);
         let mut moving = held.iter().any(|change| change.amax() != 0.0);
         let evaluated = self.residual(scene, system, sums, Some(tangents), displacement);
-        let mut now = evaluated.map_err(|error| Unbalanced {
+        let mut now = evaluated.map_err(|error| Failure {
             stop: NewtonStop::Refused,
             residual: f64::NAN,
             refused: Some(error),
@@ -115,7 +109,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         for iteration in 0.. {
             let error = now.relative();
             statistics.residuals.push(error);
-            let ended = |stop, refused| Unbalanced {
+            let ended = |stop, refused| Failure {
                 stop,
                 residual: error,
                 refused,
@@ -169,7 +163,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             moving = false;
         }
         // Not reached: the loop has no end of its own.
-        Err(Unbalanced {
+        Err(Failure {
             stop: NewtonStop::Iterations,
             residual: f64::NAN,
             refused: None,
@@ -245,7 +239,15 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         );
         let tangents = if differences { None } else { tangents };
         let (band, dt) = (self.settings.band, self.dt);
-        let totals = strain(scene, &self.transfers, displacement, band, dt, tangents)?;
+        let totals = strain(
+            scene,
+            &self.transfers,
+            displacement,
+            band,
+            dt,
+            None,
+            tangents,
+        )?;
         internal_forces(&self.transfers, scene, sums, At::End)
             .map_err(|(body, index)| outside(scene, body, index))?;
         let (start, end) = self.scheme.force_shares();
@@ -305,8 +307,8 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
         let iterative = match self.settings.linear {
             LinearSolver::Direct => {
                 let transfers = &self.transfers;
-                let solved =
-                    system.correct(scene, transfers, tangents, jacobian, force, held, 0.0)?;
+                let rights = [(force, held)];
+                let [solved] = system.correct(scene, transfers, tangents, jacobian, rights, 0.0)?;
                 statistics.negative_pivots = system.negative_pivots();
                 return Ok(solved);
             }

@@ -2,19 +2,23 @@
 
 use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_materials::Tangent;
-use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy};
+use fissure_scene::{
+    Body, NewtonStop, Report, Scene, Solution, SolveError, Solver, StepControl, StepEnergy,
+};
 use nalgebra::SVector;
 
-use super::newton::{Attempt, Balanced, Unbalanced};
+use super::newton::{Attempt, Balanced};
 use super::particles::Carried;
 use super::scheme::{Scheme, Start};
 use super::settings::ImplicitSettings;
-use super::statistics::{NewtonStop, StepStatistics};
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
+use crate::equilibrium::choice::LinearSolver;
+use crate::equilibrium::failure::Failure;
 use crate::equilibrium::pace::Pace;
+use crate::equilibrium::statistics::StepStatistics;
 use crate::equilibrium::system::System;
 use crate::nodes::NodeSums;
 use crate::placement::Placement;
@@ -101,13 +105,8 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
     }
 
     /// Tries a step of length `dt`; the trial motion of the scene holds its end.
-    fn attempt(&mut self, scene: &mut Scene<D>, dt: f64) -> Result<Report<D>, Unbalanced> {
-        let refused = |error| Unbalanced {
-            stop: NewtonStop::Refused,
-            residual: f64::NAN,
-            refused: Some(error),
-        };
-        let off_grid = |scene: &Scene<D>, (body, index)| refused(outside(scene, body, index));
+    fn attempt(&mut self, scene: &mut Scene<D>, dt: f64) -> Result<Report<D>, Failure> {
+        let off_grid = |scene: &Scene<D>, (body, index)| Failure::from(outside(scene, body, index));
         let transfers = Transfers {
             grid: &self.grid,
             shape: &self.shape,
@@ -123,18 +122,19 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
             start_speeds = held.iter().map(|held| held.speeds).collect();
             self.constraints
                 .collect(scene, &self.grid, &self.shape, &self.placement, time)
-                .map_err(refused)?;
+                .map_err(Failure::from)?;
         }
         self.system
             .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;
         let sums = &mut self.sums;
         momenta(&transfers, scene, sums).map_err(|failed| off_grid(scene, failed))?;
+        let masses: Vec<f64> = (0..sums.len()).map(|node| sums.mass(node)).collect();
         let external = |time| {
-            external_forces(&transfers, scene, sums, time).map_err(|failed| off_grid(scene, failed))
+            external_forces(&transfers, scene, &masses, time)
+                .map_err(|failed| off_grid(scene, failed))
         };
         let (external_start, external_end) = (external(time)?, external(end)?);
-        let masses: Vec<f64> = (0..sums.len()).map(|node| sums.mass(node)).collect();
         let velocities: Vec<SVector<f64, D>> =
             (0..sums.len()).map(|node| sums.velocity(node)).collect();
         internal_forces(&transfers, scene, sums, At::Start)
@@ -269,6 +269,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             reactions,
             contact_forces: Vec::new(),
             iterations: balanced.iterations,
+            solution: None,
         }
     }
 }
@@ -288,6 +289,18 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Implicit<S, D> {
                 Ok(report) => {
                     self.statistics.stop = Some(NewtonStop::Converged);
                     self.pace.accepted(dt, cuts, self.settings.step);
+                    let direct = self.settings.linear == LinearSolver::Direct;
+                    let report = Report {
+                        solution: Some(Solution {
+                            load_time: report.time,
+                            load_step: dt,
+                            control: StepControl::Prescribed,
+                            negative_pivots: direct.then_some(self.statistics.negative_pivots),
+                            cuts,
+                            stop: NewtonStop::Converged,
+                        }),
+                        ..report
+                    };
                     return self.accept(scene, report);
                 }
                 Err(failed) => failed,
@@ -295,18 +308,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Implicit<S, D> {
             self.statistics.stop = Some(failed.stop);
             cuts += 1;
             if cuts > self.settings.max_cuts {
-                let (step, time) = (scene.step() + 1, scene.time());
-                return Err(match (failed.refused, failed.stop) {
-                    (Some(error), _) => error,
-                    (None, NewtonStop::Linear) => SolveError::Singular { step, time },
-                    (None, _) => SolveError::NoConvergence {
-                        step,
-                        time,
-                        cuts: cuts - 1,
-                        residual: failed.residual,
-                        tolerance: self.settings.tolerance,
-                    },
-                });
+                return Err(failed.into_error(scene, cuts - 1, self.settings.tolerance));
             }
             dt *= 0.5;
         }

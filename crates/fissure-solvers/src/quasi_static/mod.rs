@@ -6,10 +6,18 @@
 //! `∇_x N = f⁻ᵀ ∇N`, the residual is `f_ext − Σ V σ·∇_x N` and its derivative is assembled from
 //! the law's Truesdell tangent `c` and the stress: `Σ V (∇_x N_i · c · ∇_x N_j + ∇_x N_i·σ·∇_x N_j 1)`.
 //! A step that does not converge is cut and tried again; the scene is untouched until one does.
+//!
+//! `trial` is a step in the making; `newton` balances it at a given load, `path` with the load as an
+//! unknown, for which `border` has the scalar equations; `control` chooses between them, `step` cuts and books.
 
+mod border;
+mod control;
 mod faces;
+mod newton;
+mod path;
 mod settings;
 mod step;
+mod trial;
 
-pub use settings::QuasiStaticSettings;
+pub use settings::{LoadControl, QuasiStaticSettings, VolumeChange};
 pub use step::QuasiStatic;

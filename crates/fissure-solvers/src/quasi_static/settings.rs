@@ -4,11 +4,50 @@ use fissure_scene::SolveError;
 
 use crate::band::BandSource;
 
+/// What a load step holds fixed.
+///
+/// With all but [`Prescribed`](Self::Prescribed) the load time is an unknown of the step, which closes with
+/// an equation of its own, and may fall: equilibrium is followed past limits of load and of displacement.
+/// Loads and motions are those that the scene states for the load time; a motion is its speed
+/// times the change of load time, so speeds should be constant and loads smooth functions. Time runs
+/// on with the length of the path: it is the load time until the first step that is not prescribed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LoadControl {
+    /// The load time: load and displacement control, as the scene states loads and motions.
+    #[default]
+    Prescribed,
+    /// The length of the displacement increment of the nodes, the root of its mean square weighted by mass
+    /// [Crisfield 1981]. The first step is prescribed and sets it.
+    ArcLength,
+    /// The energy that the laws dissipate in a step [Gutierrez 2004]. Steps that dissipate less stay prescribed.
+    Dissipation {
+        /// In a step of full length, J; > 0.
+        energy: f64,
+    },
+}
+
+/// Whose volume change a particle takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VolumeChange {
+    /// Its own.
+    #[default]
+    Particle,
+    /// The mean of its body's particles that reach the same nodes: with linear functions those of its cell. Against
+    /// locking of nearly incompressible bodies (F-bar, B-bar); in plane strain and in space.
+    Patch,
+}
+
 /// Choices of the quasi-static solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuasiStaticSettings {
     /// Length of a load step, s: prescribed speeds times this are the displacement increments; > 0.
     pub step: f64,
+    /// What a step holds fixed.
+    pub control: LoadControl,
+    /// Damping rate `c` of a viscous force `−c m v` on every node, 1/s, `v` its displacement over the length of the
+    /// step; 0 is none. It lets a step pass a sudden loss of stability; its work is booked as
+    /// `stabilisation`. ≥ 0.
+    pub stabilisation: f64,
     /// Residual forces over the largest reaction so far at which a step is in equilibrium; in
     /// (0, 1e-2].
     pub tolerance: f64,
@@ -16,6 +55,8 @@ pub struct QuasiStaticSettings {
     pub max_iterations: usize,
     /// How often a step may be halved before it fails; at most 40.
     pub max_cuts: usize,
+    /// Whose volume change a particle takes.
+    pub volume: VolumeChange,
     /// Width over which cracks smear.
     pub band: BandSource,
 }
@@ -24,9 +65,12 @@ impl Default for QuasiStaticSettings {
     fn default() -> Self {
         Self {
             step: 1.0,
+            control: LoadControl::Prescribed,
+            stabilisation: 0.0,
             tolerance: 1e-8,
             max_iterations: 40,
             max_cuts: 12,
+            volume: VolumeChange::Particle,
             band: BandSource::default(),
         }
     }
@@ -44,6 +88,14 @@ impl QuasiStaticSettings {
         };
         if !(self.step > 0.0 && self.step.is_finite()) {
             return refuse("step", self.step, "finite and > 0");
+        }
+        if let LoadControl::Dissipation { energy } = self.control
+            && !(energy > 0.0 && energy.is_finite())
+        {
+            return refuse("energy", energy, "finite and > 0");
+        }
+        if !(self.stabilisation >= 0.0 && self.stabilisation.is_finite()) {
+            return refuse("stabilisation", self.stabilisation, "finite and >= 0");
         }
         if !(self.tolerance > 0.0 && self.tolerance <= 1e-2) {
             return refuse("tolerance", self.tolerance, "in (0, 1e-2]");

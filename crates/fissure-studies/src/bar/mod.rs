@@ -10,7 +10,7 @@ use fissure_study::{Parameter, Permitted};
 
 pub(crate) use breaking::{Finished, break_bar, load, row, run_length};
 pub(crate) use exact::Exact;
-pub(crate) use history::Thinned;
+pub(crate) use history::{History, Thinned};
 pub(crate) use specimen::{BODY, Bar, OFFSETS};
 
 use crate::method;
@@ -20,7 +20,12 @@ pub(crate) const SPACINGS: [f64; 4] = [0.02, 0.01, 0.005, 0.0025];
 
 /// Every parameter of the bar and of how it is solved, for a study that runs these spacings.
 pub(crate) fn parameters(spacings: &[f64]) -> Vec<Parameter> {
-    let mut parameters = method::parameters(spacings, method::SOLVERS);
+    parameters_of(spacings, method::SOLVERS)
+}
+
+/// The same for a study that permits these solvers.
+pub(crate) fn parameters_of(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Parameter> {
+    let mut parameters = method::parameters(spacings, solvers);
     for parameter in &mut parameters {
         let default: Option<fissure_study::Value> = match parameter.name {
             "cfl" => Some(0.8.into()),
@@ -154,7 +159,7 @@ fn loading() -> Vec<Parameter> {
         ),
         Parameter::number(
             "ramp",
-            "time to full speed, in transits of the bar by a wave (explicit)",
+            "time to full speed, in transits of the bar by a wave (explicit, implicit)",
             "1",
             10.0,
             Permitted::at_least(0.0),

@@ -57,7 +57,31 @@ const NEVER: f64 = 1e3;
 pub(crate) const BODY: &str = "bar";
 
 impl Bar {
+    /// A bar that does not snap back.
     pub(crate) fn new(parameters: &Parameters) -> Result<Self, StudyError> {
+        let bar = Self::of_any_length(parameters)?;
+        let exact = bar.exact();
+        if !(bar.length < exact.length_limit()) {
+            let limit = exact.length_limit();
+            return Err(StudyError::combination(
+                parameters,
+                &[
+                    "length",
+                    "young",
+                    "poisson",
+                    "strength",
+                    "weakening",
+                    "toughness",
+                ],
+                format!(
+                    "the bar snaps back from a length of {limit:.4} m [Sanchez 2010, eq. 5.2.15]"
+                ),
+            ));
+        }
+        Ok(bar)
+    }
+
+    pub(crate) fn of_any_length(parameters: &Parameters) -> Result<Self, StudyError> {
         let angle = parameters.number("angle")?.to_radians();
         let offset = parameters.count("offset")? as f64;
         let bar = Self {
@@ -97,24 +121,6 @@ impl Bar {
                     "length and width must be whole numbers of cells",
                 ));
             }
-        }
-        let exact = bar.exact();
-        if !(bar.length < exact.length_limit()) {
-            let limit = exact.length_limit();
-            return Err(StudyError::combination(
-                parameters,
-                &[
-                    "length",
-                    "young",
-                    "poisson",
-                    "strength",
-                    "weakening",
-                    "toughness",
-                ],
-                format!(
-                    "the bar snaps back from a length of {limit:.4} m [Sanchez 2010, eq. 5.2.15]"
-                ),
-            ));
         }
         Ok(bar)
     }

@@ -13,7 +13,7 @@ use fissure_study::{Overrides, Parameter, Parameters, Permitted, StudyError};
 use super::fitting::displacement_at;
 use crate::convergence::positions;
 use crate::filling::{Seeded, clipped};
-use crate::method::{self, Method};
+use crate::method::{self, Chosen, Method};
 use crate::problem::{Outcome, Problem, run_to};
 
 /// The study `cook`.
@@ -81,6 +81,12 @@ impl Problem for Cook {
             "compressible",
             &["compressible", "nearly-incompressible"],
         ));
+        parameters.push(Parameter::choice(
+            "volume",
+            "change of a particle: its own, or the mean of its cell against locking (nearly-incompressible)",
+            "particle",
+            &["particle", "patch"],
+        ));
         parameters.push(Parameter::number(
             "poisson",
             "Poisson's ratio in place of 0.4999 (nearly-incompressible); the reference is for 0.4999",
@@ -126,7 +132,26 @@ impl Problem for Cook {
         let mut scene =
             panel(&variant, &grid).map_err(StudyError::failed("building the membrane"))?;
         let first = positions(&scene);
-        let mut solver = method.build(grid, BandSource::default(), 1.0)?;
+        let patch = case.choice("volume")? == "patch";
+        if patch && name != "nearly-incompressible" {
+            let reason = "volume changes are averaged in plane strain only";
+            return Err(StudyError::combination(
+                case,
+                &["material", "volume"],
+                reason,
+            ));
+        }
+        let settings = QuasiStaticSettings {
+            step: 1.0 / method.steps as f64,
+            tolerance: method.tolerance,
+            volume: if patch {
+                VolumeChange::Patch
+            } else {
+                VolumeChange::Particle
+            },
+            ..QuasiStaticSettings::default()
+        };
+        let mut solver = method.build_with(grid, Chosen::QuasiStatic(settings))?;
         let wall_s = run_to(&mut scene, &mut *solver, 1.0, case)?;
         let edge = Vector2::new(LENGTH, 0.5 * (RIGHT.0 + RIGHT.1));
         let way = displacement_at(&scene, &first, &edge, 2.0 * h).y / variant.part;

@@ -1,23 +1,8 @@
 //! What the last step took.
 
-use crate::linear::Stop;
+use fissure_scene::NewtonStop;
 
-/// Why Newton's method ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NewtonStop {
-    /// The residual is within the tolerance.
-    Converged,
-    /// The iterations are spent.
-    Iterations,
-    /// No share of the correction lowers the residual.
-    LineSearch,
-    /// The linear system was not solved.
-    Linear,
-    /// A law or the grid refused the displacement that Newton's method began with.
-    Refused,
-    /// A number is not finite.
-    NotFinite,
-}
+use crate::linear::Stop;
 
 /// What the last attempt at a step took.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,10 +6,15 @@
 
 use pulp::Simd as _;
 
-/// Operations on eight `f64` that happen to be done at once.
+/// Numbers that go through a vector unit at once.
+pub const EIGHT: usize = 8;
+
+/// Operations on eight or four `f64` that happen to be done at once.
 pub trait Lanes: Copy + Send + Sync {
     /// Eight numbers.
     type Eight: Copy;
+    /// Four numbers.
+    type Four: Copy;
     /// The same number eight times.
     fn splat(self, x: f64) -> Self::Eight;
     /// From memory.
@@ -21,9 +26,22 @@ pub trait Lanes: Copy + Send + Sync {
     /// `a b + c`, rounded once where the machine can.
     fn mul_add(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
     /// Lower four plus upper four.
-    fn fold(self, x: Self::Eight) -> [f64; 4];
+    fn fold(self, x: Self::Eight) -> Self::Four;
     /// Four times `low`, four times `high`.
     fn pair(self, low: f64, high: f64) -> Self::Eight;
+    /// Four from memory.
+    fn load4(self, x: [f64; 4]) -> Self::Four;
+    /// Four to memory.
+    fn store4(self, x: Self::Four) -> [f64; 4];
+    /// `a b`, of four.
+    fn mul4(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    /// `a b + c`, rounded once where the machine can, of four.
+    fn mul_add4(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+    /// The same number four times.
+    #[inline(always)]
+    fn splat4(self, x: f64) -> Self::Four {
+        self.load4([x; 4])
+    }
 }
 
 /// What is run on a vector unit. `run` must be `#[inline(always)]`, and so must what it calls, or it is compiled for
@@ -120,6 +138,7 @@ pub struct Plain;
 
 impl Lanes for Plain {
     type Eight = [f64; 8];
+    type Four = [f64; 4];
 
     #[inline(always)]
     fn splat(self, x: f64) -> [f64; 8] {
@@ -151,17 +170,40 @@ impl Lanes for Plain {
     }
     #[inline(always)]
     fn fold(self, x: [f64; 8]) -> [f64; 4] {
-        std::array::from_fn(|i| x[i] + x[i + 4])
+        [x[0] + x[4], x[1] + x[5], x[2] + x[6], x[3] + x[7]]
     }
     #[inline(always)]
     fn pair(self, low: f64, high: f64) -> [f64; 8] {
         [low, low, low, low, high, high, high, high]
+    }
+    #[inline(always)]
+    fn load4(self, x: [f64; 4]) -> [f64; 4] {
+        x
+    }
+    #[inline(always)]
+    fn store4(self, x: [f64; 4]) -> [f64; 4] {
+        x
+    }
+    #[inline(always)]
+    fn mul4(self, mut a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        for i in 0..4 {
+            a[i] *= b[i];
+        }
+        a
+    }
+    #[inline(always)]
+    fn mul_add4(self, a: [f64; 4], b: [f64; 4], mut c: [f64; 4]) -> [f64; 4] {
+        for i in 0..4 {
+            c[i] += a[i] * b[i];
+        }
+        c
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 impl Lanes for pulp::x86::V4 {
     type Eight = pulp::f64x8;
+    type Four = pulp::f64x4;
 
     #[inline(always)]
     fn splat(self, x: f64) -> pulp::f64x8 {
@@ -184,9 +226,25 @@ impl Lanes for pulp::x86::V4 {
         self.mul_add_f64x8(a, b, c)
     }
     #[inline(always)]
-    fn fold(self, x: pulp::f64x8) -> [f64; 4] {
+    fn fold(self, x: pulp::f64x8) -> pulp::f64x4 {
         let [low, high]: [pulp::f64x4; 2] = pulp::cast(x);
-        pulp::cast((*self).add_f64x4(low, high))
+        (*self).add_f64x4(low, high)
+    }
+    #[inline(always)]
+    fn load4(self, x: [f64; 4]) -> pulp::f64x4 {
+        pulp::cast(x)
+    }
+    #[inline(always)]
+    fn store4(self, x: pulp::f64x4) -> [f64; 4] {
+        pulp::cast(x)
+    }
+    #[inline(always)]
+    fn mul4(self, a: pulp::f64x4, b: pulp::f64x4) -> pulp::f64x4 {
+        (*self).mul_f64x4(a, b)
+    }
+    #[inline(always)]
+    fn mul_add4(self, a: pulp::f64x4, b: pulp::f64x4, c: pulp::f64x4) -> pulp::f64x4 {
+        (*self).mul_add_f64x4(a, b, c)
     }
     #[inline(always)]
     fn pair(self, low: f64, high: f64) -> pulp::f64x8 {
@@ -197,6 +255,7 @@ impl Lanes for pulp::x86::V4 {
 #[cfg(target_arch = "x86_64")]
 impl Lanes for pulp::x86::V3 {
     type Eight = [pulp::f64x4; 2];
+    type Four = pulp::f64x4;
 
     #[inline(always)]
     fn splat(self, x: f64) -> [pulp::f64x4; 2] {
@@ -227,8 +286,24 @@ impl Lanes for pulp::x86::V3 {
         ]
     }
     #[inline(always)]
-    fn fold(self, x: [pulp::f64x4; 2]) -> [f64; 4] {
-        pulp::cast(self.add_f64s(x[0], x[1]))
+    fn fold(self, x: [pulp::f64x4; 2]) -> pulp::f64x4 {
+        self.add_f64s(x[0], x[1])
+    }
+    #[inline(always)]
+    fn load4(self, x: [f64; 4]) -> pulp::f64x4 {
+        pulp::cast(x)
+    }
+    #[inline(always)]
+    fn store4(self, x: pulp::f64x4) -> [f64; 4] {
+        pulp::cast(x)
+    }
+    #[inline(always)]
+    fn mul4(self, a: pulp::f64x4, b: pulp::f64x4) -> pulp::f64x4 {
+        self.mul_f64x4(a, b)
+    }
+    #[inline(always)]
+    fn mul_add4(self, a: pulp::f64x4, b: pulp::f64x4, c: pulp::f64x4) -> pulp::f64x4 {
+        self.mul_add_f64x4(a, b, c)
     }
     #[inline(always)]
     fn pair(self, low: f64, high: f64) -> [pulp::f64x4; 2] {
@@ -253,7 +328,10 @@ mod tests {
             let sum = lanes.mul_add(x, lanes.pair(0.7, -0.3), product);
             let mut out = [0.0; 8];
             lanes.store(sum, &mut out);
-            out.into_iter().chain(lanes.fold(product)).collect()
+            let folded = lanes.fold(product);
+            let four = lanes.mul_add4(folded, lanes.splat4(0.3), lanes.mul4(folded, folded));
+            let four = [folded, four].map(|four| lanes.store4(four));
+            out.into_iter().chain(four.into_iter().flatten()).collect()
         }
     }
 
