@@ -6,6 +6,7 @@ use nalgebra::{SMatrix, SVector, Vector2};
 
 use crate::groups::{between, plane};
 use crate::placement::Placement;
+use crate::release::SplittingCrack;
 
 /// How far beside the line a face is asked for, in cells: enough to be beyond round-off.
 const BESIDE: f64 = 1e-6;
@@ -52,7 +53,7 @@ pub(crate) fn carried<const D: usize>(
     way: impl Fn(usize) -> Option<(f64, SVector<f64, D>)>,
 ) -> Result<CarriedCracks, SolveError> {
     let faces = Faces {
-        cracks: scene.cracks(),
+        cracks: SplittingCrack::all(scene.cracks(), grid.spacing()),
         grid,
         placement,
         way: &way,
@@ -77,7 +78,7 @@ pub(crate) fn carried<const D: usize>(
 }
 
 struct Faces<'a, F, const D: usize> {
-    cracks: &'a [CrackLine],
+    cracks: Vec<SplittingCrack<'a>>,
     grid: &'a Grid<D>,
     placement: &'a Placement<D>,
     way: &'a F,
@@ -117,7 +118,7 @@ impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F
         stencil.visit_values(|entry, weight| {
             let index = window_node(tile, entry);
             let node = plane(&self.grid.node(index));
-            let cracks = between(self.cracks, 0..self.cracks.len(), x, &node);
+            let cracks = between(&self.cracks, 0..self.cracks.len(), x, &node);
             if let Some((counts, way)) = self.way_at(index, cracks) {
                 sum += plane(&way) * (weight * counts);
                 weights += weight * counts;
@@ -141,4 +142,18 @@ impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F
             same.then(|| (self.way)(copy.node as usize)).flatten()
         })
     }
+}
+
+/// Normal from the first to the second face of a crack near `x`, and how far they are open, m: by
+/// the displacements of its vertices since it was made, which is exact for a crack that was closed.
+pub(crate) fn faces<const D: usize>(
+    crack: &CrackLine,
+    in_order: bool,
+    x: &SVector<f64, D>,
+) -> (SVector<f64, D>, f64) {
+    let (normal, jump) = crack.face_at(&plane(x));
+    let sign = if in_order { 1.0 } else { -1.0 };
+    let mut towards = SVector::zeros();
+    (towards[0], towards[1]) = (normal.x * sign, normal.y * sign);
+    (towards, jump.dot(&normal))
 }

@@ -7,8 +7,10 @@
 //! lie on a node. Particles that agree at all nodes of their tile's window make a group.
 
 use fissure_grid::{Grid, WINDOW, window_node};
-use fissure_scene::{CrackLine, Scene, Side, SolveError};
+use fissure_scene::{Scene, Side, SolveError};
 use nalgebra::{SVector, Vector2};
+
+use crate::release::SplittingCrack;
 
 /// Most cracks of a scene: two bits each of a [`Label`].
 const MOST_CRACKS: usize = 32;
@@ -89,7 +91,7 @@ impl Groups {
 /// The cracks near a tile, asked for one particle after another.
 pub(crate) struct Between<'a, const D: usize> {
     grid: &'a Grid<D>,
-    cracks: &'a [CrackLine],
+    cracks: Vec<SplittingCrack<'a>>,
     tile: Option<[i32; D]>,
     near: Vec<usize>,
 }
@@ -106,7 +108,7 @@ impl<'a, const D: usize> Between<'a, D> {
         }
         Ok(Self {
             grid,
-            cracks,
+            cracks: SplittingCrack::all(cracks, grid.spacing()),
             tile: None,
             near: Vec::new(),
         })
@@ -133,14 +135,14 @@ impl<'a, const D: usize> Between<'a, D> {
     }
 
     fn cracks_between(&self, from: &Vector2<f64>, to: &Vector2<f64>) -> u64 {
-        between(self.cracks, self.near.iter().copied(), from, to)
+        between(&self.cracks, self.near.iter().copied(), from, to)
     }
 
     fn find_near(&mut self, tile: [i32; D]) {
         let corner = |entry| self.node(tile, entry);
         let (low, high) = (corner(0), corner((WINDOW as usize).pow(D as u32) - 1));
         let near = |index: &usize| {
-            let [from, to] = self.cracks[*index].line().bounds();
+            let [from, to] = self.cracks[*index].line.bounds();
             (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis])
         };
         self.near = (0..self.cracks.len()).filter(near).collect();
@@ -151,9 +153,9 @@ impl<'a, const D: usize> Between<'a, D> {
     }
 }
 
-/// The cracks that the way from a particle to a node crosses, as in a [`Label`].
+/// The cracks that the way from a particle to a node crosses, as in a [`Label`], with [`SplittingCrack`]s.
 pub(crate) fn between(
-    cracks: &[CrackLine],
+    cracks: &[SplittingCrack<'_>],
     near: impl Iterator<Item = usize>,
     from: &Vector2<f64>,
     to: &Vector2<f64>,

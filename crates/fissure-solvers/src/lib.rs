@@ -23,6 +23,7 @@ mod nodes;
 mod placement;
 #[cfg(feature = "implicit")]
 mod quasi_static;
+mod release;
 mod splits;
 mod transfers;
 mod window;

@@ -76,6 +76,14 @@ impl<const D: usize> NodeSums<D> {
         }
     }
 
+    /// Adds to a node's internal force, N.
+    #[cfg(feature = "implicit")]
+    pub(crate) fn add_force(&self, node: usize, force: &SVector<f64, D>) {
+        let mut numbers = [0.0; SUMS];
+        numbers[Self::FORCE..Self::FORCE + D].copy_from_slice(force.as_slice());
+        self.add(node, &numbers);
+    }
+
     /// Gives a node another momentum, kg·m/s.
     pub(crate) fn set_momentum(&mut self, node: usize, momentum: &SVector<f64, D>) {
         for (sum, number) in self.nodes[node].0.iter_mut().zip(momentum) {

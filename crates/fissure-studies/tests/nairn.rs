@@ -64,7 +64,7 @@ fn bars_start_to_fail_at_their_strength() {
 
 #[test]
 fn a_notch_grows_in_two_rows() {
-    let rows = rows("edge-notch", &["--quick"]);
+    let rows = rows("edge-notch", &["--quick", "--set", "mode=damage"]);
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     let (onset, speed) = (
@@ -83,6 +83,51 @@ fn a_notch_grows_in_two_rows() {
         row,
         "values",
         &[("worst_balance", 1e-12), ("energy_imbalance", 0.15)],
+    );
+}
+
+#[test]
+fn a_line_grows_when_j_reaches_the_toughness() {
+    let rows = rows("edge-notch", &["--quick", "--set", "mode=explicit"]);
+    assert_eq!(rows.len(), 1);
+    let row = &rows[0];
+    // Damage of the same toughness costs 2.2 times as much and starts at 30 µs.
+    let onset = number(row, "values", "onset_us");
+    assert!((onset / 21.5 - 1.0).abs() < 0.05, "{row}");
+    let speed = number(row, "values", "speed_m_s");
+    assert!(speed > 300.0 && speed < 901.0, "{row}");
+    assert!(number(row, "values", "length_mm") > 17.0, "{row}");
+    assert_at_most(row, "values", &[("worst_balance", 1e-12)]);
+}
+
+#[test]
+fn a_crack_is_arrested_at_another_which_then_grows_across() {
+    let rows = rows("interacting-cracks", &["--quick"]);
+    let row = &rows[0];
+    let time = |name: &str| number(row, "values", name);
+    let (onset, arrest, restart) = (time("onset_us"), time("arrest_us"), time("restart_us"));
+    assert!(onset > 15.0 && arrest > onset && restart > arrest, "{row}");
+    for tip in ["lower", "upper"] {
+        // At right angles to the second crack, which is along the load.
+        assert!(time(&format!("{tip}_growth_mm")) > 3.0, "{row}");
+        assert!(time(&format!("{tip}_angle_deg")) < 15.0, "{row}");
+    }
+    let [lower, upper] = ["lower_growth_mm", "upper_growth_mm"].map(time);
+    assert!((lower / upper - 1.0).abs() < 0.1, "{row}");
+}
+
+#[test]
+fn growth_by_damage_costs_two_rows_and_a_wake() {
+    let rows = rows("apparent-toughness", &["--quick"]);
+    let value = |name| number(&rows[0], "values", name);
+    assert!((value("failed_rows") - 2.0).abs() < 0.15, "{}", rows[0]);
+    // Each failed row takes the toughness.
+    assert!((value("spent_by_failed") / value("failed_rows") - 1.0).abs() < 0.1);
+    assert!(value("spent_by_wake") > 0.1 && value("spent_by_wake") < 1.0);
+    assert!(
+        value("far_j_at_onset") > value("spent_by_failed"),
+        "{}",
+        rows[0]
     );
 }
 

@@ -13,5 +13,6 @@ mod bits;
 mod bond;
 mod conservation;
 mod crack;
+mod crack_statics;
 mod friction;
 mod impact;

@@ -39,11 +39,25 @@ pub enum GrowthDirection {
     MaximumHoop,
 }
 
+/// Least share of the domain that is taken where there is no room for it.
+const LEAST: f64 = 0.25;
+
+/// Distance of a tip to the nearest other crack, m.
+fn room(scene: &Scene<2>, crack: usize, tip: &TipFrame) -> f64 {
+    let lines = scene.cracks().iter().enumerate();
+    let others = lines.filter(|(other, _)| *other != crack);
+    others
+        .map(|(_, other)| other.line().foot(&tip.position).distance)
+        .fold(f64::INFINITY, f64::min)
+}
+
 /// Lets a tip grow by a fixed length when the energy release rate reaches the toughness.
 ///
 /// J is taken over a domain around the tip ([`j_integral`]). If another crack is nearer than its
 /// outer radius the domain shrinks with the distance, and if the body does not fill it, it is
-/// halved, both down to a quarter: a tip as near as that to a surface stays where it is.
+/// halved, both down to a quarter. A tip as near as that to a surface stays where it is. One as near
+/// as that to another crack goes straight on if it grew when it was last asked: what is left between
+/// the two is released at a rate that only rises, and they meet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyReleaseGrowth {
     /// Name of the body that cracks.
@@ -63,6 +77,8 @@ pub struct EnergyReleaseGrowth {
     pub inertia: bool,
     /// What was seen when it was last asked.
     pub rates: Rates,
+    /// The tips that grew then.
+    pub running: Vec<(usize, End)>,
 }
 
 impl EnergyReleaseGrowth {
@@ -92,6 +108,7 @@ impl EnergyReleaseGrowth {
             direction,
             inertia: false,
             rates: Rates::default(),
+            running: Vec::new(),
         })
     }
 
@@ -128,17 +145,13 @@ impl EnergyReleaseGrowth {
             permitted: "below the number of cracks in the scene",
         })?;
         let tip = self.frame(growing, end);
-        let lines = scene.cracks().iter().enumerate();
-        let others = lines.filter(|(other, _)| *other != crack);
-        let room = others
-            .map(|(_, other)| other.line().foot(&tip.position).distance)
-            .fold(f64::INFINITY, f64::min);
+        let room = room(scene, crack, &tip);
         let rates = self.inertia.then_some(&self.rates);
         let radius = self.domain.outer;
         let (body, elastic) = (&self.body, &self.elastic);
         let field = TipField::of(scene, body, &tip.position, radius, elastic, rates)?;
         let mut share = (room / radius).min(1.0);
-        while share >= 0.25 {
+        while share >= LEAST {
             let domain = Annulus {
                 inner: share * self.domain.inner,
                 outer: share * radius,
@@ -176,17 +189,18 @@ impl GrowthCriterion for EnergyReleaseGrowth {
                 return Ok(None);
             }
         }
-        let Some((j, k)) = self.measure(scene, crack, end).map_err(undecided)? else {
-            return Ok(None);
-        };
-        if !(j >= self.toughness) {
-            return Ok(None);
-        }
+        let ran = self.running.iter().position(|tip| *tip == (crack, end));
+        let ran = ran.map(|place| self.running.swap_remove(place)).is_some();
+        let measured = self.measure(scene, crack, end).map_err(undecided)?;
         let tip = self.frame(&scene.cracks()[crack], end);
-        let angle = match self.direction {
-            GrowthDirection::SelfSimilar => 0.0,
-            GrowthDirection::MaximumHoop => hoop_angle(&k),
+        let angle = match (measured, self.direction) {
+            (Some((j, _)), _) if !(j >= self.toughness) => return Ok(None),
+            (Some((_, k)), GrowthDirection::MaximumHoop) => hoop_angle(&k),
+            (Some(_), GrowthDirection::SelfSimilar) => 0.0,
+            (None, _) if ran && room(scene, crack, &tip) < LEAST * self.domain.outer => 0.0,
+            (None, _) => return Ok(None),
         };
+        self.running.push((crack, end));
         let (sine, cosine) = angle.sin_cos();
         Ok(Some(Growth {
             direction: tip.axes() * Vector2::new(cosine, sine),

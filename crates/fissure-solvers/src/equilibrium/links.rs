@@ -3,6 +3,8 @@
 //! Particles that reach the same nodes form a **patch** (with linear functions, those of a cell),
 //! like the integration points of an element. The patches give the pattern of the stiffness.
 
+use std::collections::HashSet;
+
 use fissure_grid::{Shape, Stencil};
 use fissure_scene::Scene;
 use nalgebra::{SMatrix, SVector};
@@ -41,6 +43,8 @@ pub(crate) struct Links<const D: usize> {
     pub active: Vec<u32>,
     /// Number of every node among the active ones.
     numbers: Vec<u32>,
+    /// Pairs of nodes that something else than particles joins.
+    pub joined: Vec<[u32; 2]>,
     /// Nodes of the patches by their numbers, and where each patch's begin.
     nodes: Vec<u32>,
     node_starts: Vec<u32>,
@@ -134,6 +138,7 @@ impl<const D: usize> Links<D> {
                 }
             }
         }
+        self.join();
         self.sort_members(&found);
         self.number_active(placement.node_count());
         Ok(())
@@ -150,6 +155,23 @@ impl<const D: usize> Links<D> {
         self.nodes.extend_from_slice(reached);
         self.node_starts.push(self.nodes.len() as u32);
         self.patches() - 1
+    }
+
+    /// Makes patches without particles of the pairs that are joined, where both nodes are reached.
+    fn join(&mut self) {
+        if self.joined.is_empty() {
+            return;
+        }
+        let reached: HashSet<u32> = self.nodes.iter().copied().collect();
+        let joined = std::mem::take(&mut self.joined);
+        for pair in joined
+            .iter()
+            .filter(|pair| pair.iter().all(|node| reached.contains(node)))
+        {
+            self.nodes.extend_from_slice(pair);
+            self.node_starts.push(self.nodes.len() as u32);
+        }
+        self.joined = joined;
     }
 
     fn sort_members(&mut self, found: &[(u32, Member)]) {

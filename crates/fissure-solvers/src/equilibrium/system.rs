@@ -3,7 +3,7 @@
 use fissure_grid::Shape;
 use fissure_materials::Tangent;
 use fissure_scene::{Scene, SolveError};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::choice::{Iterative, Method, Preconditioning};
 use super::freedoms::Freedoms;
@@ -23,7 +23,17 @@ pub(crate) struct System<const D: usize> {
     pub links: Links<D>,
     pub freedoms: Freedoms<D>,
     pub stiffness: Stiffness<D>,
+    /// What joins nodes besides the particles; `links.joined` holds their nodes.
+    pub springs: Vec<Spring<D>>,
     direct: Option<Direct<D>>,
+}
+
+/// A spring between two active nodes.
+pub(crate) struct Spring<const D: usize> {
+    /// Their numbers.
+    pub numbers: [usize; 2],
+    /// Derivative of the force on the second by its displacement against the first, with its sign turned, N/m.
+    pub stiffness: SMatrix<f64, D, D>,
 }
 
 /// The derivative of the unbalanced forces, with its sign turned: `stiffness` times the tangent plus
@@ -120,6 +130,18 @@ impl<const D: usize> System<D> {
             self.direct = None;
         }
         self.stiffness.assemble(&self.links, scene, tangents);
+        let matrix = &mut self.stiffness.matrix;
+        for Spring { numbers, stiffness } in &self.springs {
+            for row in 0..2 {
+                for column in 0..2 {
+                    let place = matrix.pattern().place(numbers[row], numbers[column]);
+                    let sign = if row == column { 1.0 } else { -1.0 };
+                    if let Some(place) = place {
+                        matrix.blocks[place] += stiffness * sign;
+                    }
+                }
+            }
+        }
     }
 
     /// The held components' changes of the active nodes, from those of all nodes; `None` if all are zero.

@@ -7,22 +7,25 @@
 //!
 //! A step may close the gap and no more: the relative normal velocity after it is at least `−max(g, 0)/Δt`. The impulse
 //! this takes is limited from below by zero, the tangential one by friction times it. Fields without a contact between
-//! them get a common velocity, as if they were one. Three and more fields at a node are treated pair by pair with
+//! them get a common velocity, as if they were one. Nodes that the tip of a crack is passing are held by a spring besides
+//! (`release`), the force of which is that of the end of the step. Three and more fields at a node are treated pair by pair with
 //! impulses that add up (projected Gauss-Seidel).
 
 mod plane;
 mod surface;
 
 use fissure_grid::Shape;
-use fissure_scene::{CrackLine, Scene, SolveError};
+use fissure_scene::{Scene, SolveError};
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use self::plane::normal_between;
 use self::surface::Surface;
 use crate::checks::outside;
-use crate::groups::{Label, plane};
+use crate::crack_motion::faces;
+use crate::groups::Label;
 use crate::nodes::{Field, MASSIVE, NodeSums, element, vector};
+use crate::release::{Release, Tie};
 use crate::transfers::Transfers;
 
 /// Rounds over the pairs of a node where more than two fields meet.
@@ -48,6 +51,8 @@ struct Meeting<const D: usize> {
     normal: SVector<f64, D>,
     /// m; negative where they overlap.
     gap: f64,
+    /// Between the faces of a crack near its tip; its jump is of the second field.
+    tie: Tie<D>,
 }
 
 /// How two fields touch.
@@ -68,6 +73,14 @@ enum Between {
 }
 
 impl<const D: usize> Meeting<D> {
+    /// The crack between the fields, and the sign of the second one's side.
+    fn faces(&self) -> Option<(usize, f64)> {
+        match self.law?.between {
+            Between::Faces(crack, plus) => Some((crack, if plus { 1.0 } else { -1.0 })),
+            Between::Bodies(..) => None,
+        }
+    }
+
     fn is_of_bodies(&self) -> bool {
         matches!(self.law.map(|law| law.between), Some(Between::Bodies(..)))
     }
@@ -94,6 +107,7 @@ impl<const D: usize> Meetings<D> {
         &mut self,
         transfers: &Transfers<'_, S, D>,
         scene: &Scene<D>,
+        release: &Release<D>,
         margin: f64,
     ) -> Result<(), SolveError> {
         self.meetings.clear();
@@ -120,14 +134,18 @@ impl<const D: usize> Meetings<D> {
                     law,
                     normal: SVector::zeros(),
                     gap: 0.0,
+                    tie: Tie::free(),
                 };
                 match law.map(|law| law.between) {
                     None => {}
                     Some(Between::Faces(crack, in_order)) => {
-                        let x = transfers
-                            .placement
-                            .node_position(transfers.grid, meeting.nodes[0]);
+                        let grid = transfers.grid;
+                        let x = transfers.placement.node_position(grid, meeting.nodes[0]);
                         (meeting.normal, meeting.gap) = faces(&scene.cracks()[crack], in_order, &x);
+                        meeting.tie = release.tie(scene, grid, crack, &x);
+                        if !in_order {
+                            meeting.tie.jump *= -1.0;
+                        }
                     }
                     Some(Between::Bodies(..)) => {
                         // The box of a field without particles is near none.
@@ -177,13 +195,15 @@ impl<const D: usize> Meetings<D> {
         }
     }
 
-    /// Changes the velocities in `field` so that no gap is more than closed within `dt`.
+    /// Changes the velocities in `field` so that no gap is more than closed within `dt`; of an accelerated field
+    /// (`ties`) the springs take their part.
     pub(crate) fn part(
         &self,
         sums: &NodeSums<D>,
         field: &mut Field,
         dt: f64,
         gap: Gap<'_>,
+        ties: bool,
     ) -> Impulses<D> {
         let mut impulses = vec![SVector::zeros(); self.meetings.len()];
         for pair in self.starts.windows(2) {
@@ -191,7 +211,7 @@ impl<const D: usize> Meetings<D> {
             let rounds = if here.len() > 1 { ROUNDS } else { 1 };
             for _ in 0..rounds {
                 for k in here.clone() {
-                    self.part_pair(k, sums, field, dt, gap, &mut impulses[k]);
+                    self.part_pair(k, sums, field, dt, (gap, ties), &mut impulses[k]);
                 }
             }
         }
@@ -204,7 +224,7 @@ impl<const D: usize> Meetings<D> {
         sums: &NodeSums<D>,
         field: &mut Field,
         dt: f64,
-        gap: Gap<'_>,
+        (gap, ties): (Gap<'_>, bool),
         impulse: &mut SVector<f64, D>,
     ) {
         let meeting = &self.meetings[k];
@@ -221,11 +241,17 @@ impl<const D: usize> Meetings<D> {
                 Gap::Start => meeting.gap,
                 Gap::End(moved) => meeting.gap + dt * jump(moved).dot(normal),
             };
-            let relative = jump(field);
+            let free = jump(field) - *impulse / reduced;
+            let spring = if ties && meeting.tie.stiffness > 0.0 {
+                meeting.tie.impulse(&free, reduced, dt)
+            } else {
+                SVector::zeros()
+            };
+            let relative = free + spring / reduced;
             let closing = relative.dot(normal);
-            let before = impulse.dot(normal);
-            let push = (before - reduced * (closing + gap.max(0.0) / dt)).max(0.0);
-            let along = (*impulse - normal * before) - (relative - normal * closing) * reduced;
+            let push = -reduced * (closing + gap.max(0.0) / dt);
+            let push = push.max(0.0);
+            let along = (relative - normal * closing) * -reduced;
             let most = if push > 0.0 { law.friction * push } else { 0.0 };
             let length = along.norm();
             let held = if length > most {
@@ -233,7 +259,7 @@ impl<const D: usize> Meetings<D> {
             } else {
                 along
             };
-            normal * push + held
+            spring + normal * push + held
         } else {
             *impulse - jump(field) * reduced
         };
@@ -255,6 +281,23 @@ impl<const D: usize> Meetings<D> {
                 impulse.dot(&(mean(a) - mean(b)))
             })
             .sum()
+    }
+
+    /// Jumps of the nodes that are held by springs after a step that strains with these velocities: crack, place (m), and how far the
+    /// plus field is from the minus one (m).
+    pub(crate) fn tied<'s>(
+        &'s self,
+        place: impl Fn(usize) -> SVector<f64, D> + 's,
+        straining: &'s Field,
+        dt: f64,
+    ) -> impl Iterator<Item = (usize, SVector<f64, D>, SVector<f64, D>)> + 's {
+        let tied = self.meetings.iter().filter(|m| m.tie.stiffness > 0.0);
+        tied.filter_map(move |meeting| {
+            let (crack, sign) = meeting.faces()?;
+            let [a, b] = meeting.nodes;
+            let jump = meeting.tie.jump + (vector::<D>(&straining[b]) - vector(&straining[a])) * dt;
+            Some((crack, place(a), jump * sign))
+        })
     }
 
     /// Force of each contact on its second body, N.
@@ -297,18 +340,4 @@ fn law<const D: usize>(scene: &Scene<D>, [a, b]: [Label; 2]) -> Option<Law> {
         between: Between::Bodies(index, Some(contact.bodies()[1]) == second),
         friction: contact.law().friction(),
     })
-}
-
-/// Normal from the first to the second face of a crack near `x`, and how far they are open, m: by
-/// the displacements of its vertices since it was made, which is exact for a crack that was closed.
-fn faces<const D: usize>(
-    crack: &CrackLine,
-    in_order: bool,
-    x: &SVector<f64, D>,
-) -> (SVector<f64, D>, f64) {
-    let (normal, jump) = crack.face_at(&plane(x));
-    let sign = if in_order { 1.0 } else { -1.0 };
-    let mut towards = SVector::zeros();
-    (towards[0], towards[1]) = (normal.x * sign, normal.y * sign);
-    (towards, jump.dot(&normal))
 }

@@ -47,7 +47,9 @@ impl<const D: usize> NodeForces<'_, D> {
             }
             *end = element(&velocity, mass > 0.0);
         });
-        let impulses = self.meetings.part(sums, &mut nodes.end, dt, Gap::Start);
+        let impulses = self
+            .meetings
+            .part(sums, &mut nodes.end, dt, Gap::Start, true);
         let mut energy = StepEnergy::default();
         let mut reactions = vec![SVector::zeros(); scene.conditions().len()];
         for held in &self.constraints.held {

@@ -88,7 +88,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
         each_node(straining, |node, v| {
             *v = element(&sums.velocity(node), sums.mass(node) > 0.0);
         });
-        self.meetings.part(sums, straining, self.dt, gap);
+        self.meetings.part(sums, straining, self.dt, gap, false);
         for held in &self.constraints.held {
             let velocity = held.apply(&vector(&straining[held.node]));
             straining[held.node] = element(&velocity, sums.mass(held.node) > 0.0);

@@ -16,6 +16,7 @@ use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::nodes::{MASSIVE, NodeSums, vector};
 use crate::placement::Placement;
+use crate::release::Release;
 use crate::transfers::Transfers;
 
 /// Share of the mean particle mass at which a node counts half for the faces of cracks: force over mass, and with it the
@@ -37,6 +38,7 @@ pub struct Explicit<S, const D: usize> {
     strayed: AtomicBool,
     nodes: Nodes,
     meetings: Meetings<D>,
+    release: Release<D>,
     /// kg; found when the scene was edited.
     mean_particle_mass: f64,
     /// Fastest wave plus fastest particle, m/s; `None` before the first step.
@@ -63,6 +65,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             strayed: AtomicBool::new(false),
             nodes: Nodes::default(),
             meetings: Meetings::default(),
+            release: Release::default(),
             mean_particle_mass: 0.0,
             fastest: None,
             recalled: false,
@@ -167,6 +170,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             nodes,
             strayed,
             meetings,
+            release,
             mean_particle_mass,
             ..
         } = self;
@@ -182,7 +186,8 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         };
         // Two bodies that run into each other at the fastest speed.
         let margin = 2.0 * settings.cfl * grid.spacing();
-        meetings.find(&transfers, scene, margin)?;
+        release.look(scene);
+        meetings.find(&transfers, scene, release, margin)?;
         let phases = Phases {
             transfers,
             meetings,
@@ -251,6 +256,13 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         }
 
         // Everything succeeded: the trial becomes the present.
+        let place = |node| placement.node_position(grid, node);
+        // Springs are strained as the particles are.
+        let straining = match stress_update {
+            StressUpdate::Last => &nodes.end,
+            StressUpdate::First | StressUpdate::Musl => &nodes.straining,
+        };
+        release.keep(grid, meetings.tied(place, straining, dt));
         cracks.accept(scene, placement);
         for body in scene.bodies_mut() {
             body.commit()?;
@@ -275,7 +287,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
     }
 
     fn memory(&self) -> Vec<f64> {
-        let mut memory: Vec<f64> = self.fastest.into_iter().collect();
+        let Some(fastest) = self.fastest else {
+            return Vec::new();
+        };
+        let mut memory = vec![fastest];
+        memory.extend(self.release.memory());
         if !self.strayed.load(Relaxed) {
             memory.extend(self.placement.memory());
         }
@@ -285,6 +301,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
     fn recall(&mut self, memory: &[f64]) {
         self.fastest = memory.first().copied();
         self.recalled = self.fastest.is_some();
-        self.placement.recall(memory.get(1..).unwrap_or(&[]));
+        let rest = self.release.recall(memory.get(1..).unwrap_or(&[]));
+        self.placement.recall(rest);
     }
 }

@@ -41,6 +41,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let (grid, shape) = (&self.grid, &self.shape);
         self.constraints
             .collect(scene, grid, shape, &self.placement, load_time)?;
+        self.release.look(scene);
+        self.faces.find(&transfers, scene, &self.release);
+        self.system.links.joined = self.faces.joined();
         self.system
             .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;
@@ -87,6 +90,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             settings: &self.settings,
             constraints: &mut self.constraints,
             system: &mut self.system,
+            faces: &mut self.faces,
+            stresses: Vec::new(),
             internal: &mut self.internal,
             tangents: &mut self.tangents,
             statistics: &mut self.statistics,

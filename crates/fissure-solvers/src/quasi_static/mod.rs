@@ -12,6 +12,7 @@
 
 mod border;
 mod control;
+mod faces;
 mod newton;
 mod path;
 mod settings;

@@ -31,7 +31,7 @@ pub(super) fn balanced<S: Shape<D>, const D: usize>(
         trial.ended(iteration, error)?;
         // Where a crack is open the tangent is next to nothing, and a full step runs far into
         // the other side: go back and stiffen the system, as Levenberg and Marquardt do.
-        if error > last && damping < MOST_DAMPING {
+        if error > last && damping < MOST_DAMPING && !trial.faces.changed {
             damping = (damping * 1e2).clamp(1e-6, MOST_DAMPING);
             trial.displacement.clone_from(&before);
             continue;

@@ -8,6 +8,7 @@ use fissure_scene::{
 };
 use nalgebra::SVector;
 
+use super::faces::Faces;
 use super::settings::{QuasiStaticSettings, VolumeChange};
 use super::trial::Equilibrium;
 use crate::checks::{check_columns, check_until, outside};
@@ -20,6 +21,7 @@ use crate::equilibrium::system::System;
 use crate::linear::BlockMatrix;
 use crate::nodes::NodeSums;
 use crate::placement::Placement;
+use crate::release::Release;
 use crate::transfers::Transfers;
 
 /// Quasi-static material-point solver on a grid with a shape function.
@@ -30,6 +32,8 @@ pub struct QuasiStatic<S, const D: usize> {
     pub(super) placement: Placement<D>,
     pub(super) constraints: Constraints<D>,
     pub(super) system: System<D>,
+    pub(super) faces: Faces<D>,
+    pub(super) release: Release<D>,
     pub(super) internal: NodeSums<D>,
     pub(super) displacement: Vec<SVector<f64, D>>,
     pub(super) tangents: Vec<Vec<Tangent>>,
@@ -65,6 +69,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             placement: Placement::default(),
             constraints: Constraints::default(),
             system: System::default(),
+            faces: Faces::default(),
+            release: Release::default(),
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
@@ -116,6 +122,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .find(&transfers, scene, &Constraints::default())
             .map_err(off_grid)?;
         let still = vec![SVector::zeros(); transfers.placement.node_count()];
+        self.system.springs.clear();
         self.tangents.resize(scene.bodies().len(), Vec::new());
         let (band, dt) = (self.settings.band, self.settings.step);
         let links = &mut self.system.links;
@@ -186,6 +193,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             displacement,
             ..
         } = self;
+        self.release.keep(grid, self.faces.tied(displacement));
         let cracks = carried(scene, grid, placement, |node| {
             system.links.number(node).map(|_| (1.0, displacement[node]))
         })?;
@@ -223,6 +231,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 internal: equilibrium.internal_work,
                 stored: equilibrium.totals.stored,
                 dissipated: equilibrium.totals.dissipated,
+                contact: equilibrium.contact_work,
                 stabilisation: equilibrium.stabilising_work,
                 ..StepEnergy::default()
             },
@@ -276,7 +285,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
 
     fn memory(&self) -> Vec<f64> {
         let flag = |flag: bool| f64::from(u8::from(flag));
-        vec![
+        let mut memory = vec![
             self.pace.next,
             self.force_scale,
             flag(self.has_stepped),
@@ -284,7 +293,9 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             self.arc_length,
             flag(self.last_control == StepControl::Dissipation),
             flag(self.dissipated_before),
-        ]
+        ];
+        memory.extend(self.release.memory());
+        memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
@@ -296,8 +307,10 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             arc_length,
             dissipating,
             dissipated,
+            ref rest @ ..,
         ] = *memory
         {
+            self.release.recall(rest);
             self.pace.next = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;

@@ -7,6 +7,7 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, NewtonStop, Scene, SweepTotals};
 use nalgebra::SVector;
 
+use super::faces::Faces;
 use super::settings::{QuasiStaticSettings, VolumeChange};
 use crate::checks::outside;
 use crate::constraints::Constraints;
@@ -34,6 +35,10 @@ pub(super) struct Trial<'a, S, const D: usize> {
     pub settings: &'a QuasiStaticSettings,
     pub constraints: &'a mut Constraints<D>,
     pub system: &'a mut System<D>,
+    /// Where faces of cracks may touch.
+    pub faces: &'a mut Faces<D>,
+    /// Forces of the trial stresses, without those of the faces, N.
+    pub stresses: Vec<SVector<f64, D>>,
     pub internal: &'a mut NodeSums<D>,
     pub tangents: &'a mut Vec<Vec<Tangent>>,
     pub statistics: &'a mut StepStatistics,
@@ -83,6 +88,7 @@ pub(super) struct Equilibrium<const D: usize> {
     pub load_step: f64,
     pub load_work: f64,
     pub internal_work: f64,
+    pub contact_work: f64,
     pub stabilising_work: f64,
     /// Mean displacement increment, m.
     pub length: f64,
@@ -203,6 +209,10 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
             internal_forces(&self.transfers, self.scene, self.internal, At::End)
                 .map_err(|(body, index)| outside(self.scene, body, index))?;
         }
+        self.stresses = forces(self.internal);
+        let System { links, springs, .. } = &mut *self.system;
+        self.faces
+            .add(links, self.displacement, self.internal, springs);
         let (links, freedoms) = (&self.system.links, &self.system.freedoms);
         let outer = self.outer(loads);
         let found = unbalanced(links, freedoms, self.internal, &outer);
@@ -246,7 +256,7 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
 
     /// The trial, which is balanced, as an equilibrium.
     pub(super) fn equilibrium(
-        &self,
+        &mut self,
         balance: &Balance,
         loads: &[SVector<f64, D>],
         iterations: usize,
@@ -267,7 +277,8 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
             dt: self.dt,
             load_step: self.load_step,
             load_work: work(&start.external, loads, u),
-            internal_work: -work(&start.internal, &forces(self.internal), u),
+            internal_work: -work(&start.internal, &self.stresses, u),
+            contact_work: self.faces.work(u),
             stabilising_work,
             length: self.length(u),
             force_scale: balance.scale,

@@ -24,15 +24,28 @@ pub(super) fn drive<const D: usize>(
     end: f64,
     mut after: impl FnMut(&Scene<D>, &Report<D>) -> bool,
 ) -> Result<Drive, StudyError> {
+    drive_growing(scene, solver, end, |scene, report| Ok(after(scene, report)))
+}
+
+/// The same for a scene whose cracks may grow after a step; if that cannot be decided the run ends.
+pub(super) fn drive_growing<const D: usize>(
+    scene: &mut Scene<D>,
+    solver: &mut dyn Solver<D>,
+    end: f64,
+    mut after: impl FnMut(&mut Scene<D>, &Report<D>) -> Result<bool, GrowthError>,
+) -> Result<Drive, StudyError> {
     let start = Instant::now();
     let mut stopped = None;
     while scene.time() < end {
         match solver.step(scene, end) {
-            Ok(report) => {
-                if !after(scene, &report) {
+            Ok(report) => match after(scene, &report) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => {
+                    stopped = Some(error.to_string());
                     break;
                 }
-            }
+            },
             Err(error) if scene.step() == 0 => {
                 return Err(StudyError::failed("taking the first step")(error));
             }

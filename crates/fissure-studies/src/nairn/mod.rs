@@ -1,10 +1,13 @@
-//! The examples of Nairn, Hammerquist & Aimene 2017, sec. 3, that need only the damage laws.
+//! The examples of Nairn, Hammerquist & Aimene 2017, sec. 3.
 //!
 //! What the studies share is here: the numerics they choose from (`numerics`), the loop that runs
-//! a scene and what its ledger says (`drive`), failed particles (`failed`) and pictures.
+//! a scene and what its ledger says (`drive`), failed particles (`failed`), the notched plate (`plate`) and the tips of
+//! its cracks (`tips`), and pictures.
 
+pub mod apparent_toughness;
 pub mod coating;
 pub mod edge_notch;
+pub mod interacting;
 pub mod random_block;
 pub mod stability;
 pub mod uniaxial;
@@ -15,7 +18,9 @@ mod failed;
 mod many;
 mod numerics;
 mod pictures;
+mod plate;
 mod reference;
+mod tips;
 
 use fissure_study::Study;
 
@@ -24,6 +29,8 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     vec![
         Box::new(uniaxial::Uniaxial),
         Box::new(edge_notch::EdgeNotch),
+        Box::new(apparent_toughness::ApparentToughness),
+        Box::new(interacting::InteractingCracks),
         Box::new(coating::Coating),
         Box::new(random_block::RandomBlock),
         Box::new(stability::StabilityEta),

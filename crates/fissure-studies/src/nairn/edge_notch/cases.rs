@@ -4,58 +4,69 @@ use fissure_study::{Overrides, Parameter, Permitted};
 
 use crate::nairn::conjugate::StressMeasure;
 use crate::nairn::numerics::Numerics;
+use crate::nairn::plate::Plate;
+use crate::nairn::tips::Tips;
 
 pub(super) fn parameters() -> Vec<Parameter> {
-    let positive = || Permitted::above(0.0);
     let mut parameters = vec![Parameter::choice(
         "mode",
         "how the crack is modelled",
         "damage",
-        &["damage"],
+        &["damage", "explicit"],
     )];
     parameters.extend(Numerics::parameters(1e-3));
+    parameters.extend(Plate::parameters());
+    parameters.extend(Tips::parameters("straight"));
     parameters.extend([
         StressMeasure::parameter(),
-        Parameter::number("strength", "in tension", "Pa", 30e6, positive()),
-        Parameter::number("toughness", "in opening", "J/m2", 600.0, positive()),
+        Parameter::number(
+            "toughness",
+            "in opening",
+            "J/m2",
+            600.0,
+            Permitted::above(0.0),
+        ),
         Parameter::choice(
             "notch",
-            "a cell row left out, or failed from the start",
+            "under damage: a cell row left out, or failed from the start, or a line",
             "gap",
-            &["gap", "severed"],
+            &["gap", "severed", "line"],
         ),
-        Parameter::number("young", "Young's modulus", "Pa", 2.5e9, positive()),
-        Parameter::number(
-            "poisson",
-            "Poisson's ratio",
-            "1",
-            0.33,
-            Permitted::between(-1.0, 0.5),
-        ),
-        Parameter::number("density", "mass density", "kg/m3", 1000.0, positive()),
-        Parameter::number("width", "of the plate", "m", 0.05, positive()),
-        Parameter::number("height", "of the plate", "m", 0.1, positive()),
-        Parameter::number("crack", "length of the notch", "m", 0.025, positive()),
-        Parameter::number("speed", "of each end", "m/s", 3.1623, positive()),
-        Parameter::number("end", "of the run", "s", 1.1e-4, positive()),
+        Parameter::number("end", "of the run", "s", 1.1e-4, Permitted::above(0.0)),
     ]);
     parameters
 }
 
+/// A line that grows at this toughness, J/m².
+fn explicit(toughness: f64) -> Overrides {
+    Overrides::new()
+        .set("mode", "explicit")
+        .set("toughness", toughness)
+}
+
 pub(super) fn default_cases(settings: &Overrides, quick: bool) -> Vec<Overrides> {
+    let asked = |name: &&str| settings.get(name).is_some();
+    let line = settings.get("mode") == Some(&["explicit".into()]);
     if quick {
-        return vec![
-            Overrides::new()
-                .set("width", 0.02)
+        let small = |case: Overrides| {
+            case.set("width", 0.02)
                 .set("height", 0.04)
                 .set("crack", 0.01)
-                .set("end", 6e-5),
-        ];
+                .set("end", 6e-5)
+        };
+        let both = vec![small(Overrides::new()), small(explicit(600.0))];
+        return if asked(&"mode") {
+            vec![small(Overrides::new())]
+        } else {
+            both
+        };
     }
-    let mut cases = vec![Overrides::new()];
-    let asked = ["strength", "toughness", "h", "band", "notch", "transfer"];
-    if asked.iter().any(|name| settings.get(name).is_some()) {
-        return cases;
+    let names = ["strength", "toughness", "h", "band", "notch", "transfer"];
+    if names.iter().any(asked) {
+        return vec![Overrides::new()];
+    }
+    if line {
+        return vec![explicit(2000.0), explicit(600.0)];
     }
     let tough = |strength: f64| {
         Overrides::new()
@@ -63,6 +74,7 @@ pub(super) fn default_cases(settings: &Overrides, quick: bool) -> Vec<Overrides>
             .set("toughness", 2000.0)
             .set("end", 2e-4)
     };
+    let mut cases = vec![Overrides::new()];
     cases.push(Overrides::new().sweep("strength", [20e6, 40e6]));
     cases.extend([20e6, 30e6, 40e6].map(tough));
     cases.push(tough(30e6).set("band", "discretisation"));
@@ -73,5 +85,8 @@ pub(super) fn default_cases(settings: &Overrides, quick: bool) -> Vec<Overrides>
             .set("h", 0.5e-3)
             .sweep("toughness", [600.0, 750.0]),
     );
+    if !asked(&"mode") {
+        cases.extend([explicit(2000.0), explicit(600.0)]);
+    }
     cases
 }

@@ -1,10 +1,13 @@
 //! A single edge notch in a plate that is pulled at both ends [Nairn 2017, sec. 3.2, figs 5 and 6].
 //!
 //! `mode=damage`: the crack is a row of particles that fail. The notch is a cell row that is left
-//! out, or one that has failed from the start.
+//! out, one that has failed from the start, or a line. `mode=explicit`: the crack is a line that
+//! grows where the J-integral, inertia included, reaches the toughness.
 
 mod cases;
+mod damage;
 mod growth;
+mod line;
 mod pictures;
 mod run;
 
@@ -19,7 +22,7 @@ impl Study for EdgeNotch {
     }
 
     fn about(&self) -> &'static str {
-        "onset, length and speed of a crack from an edge notch under damage mechanics [Nairn 2017, sec. 3.2]"
+        "onset, length and speed of a crack from an edge notch as a line or under damage mechanics [Nairn 2017, sec. 3.2]"
     }
 
     fn parameters(&self) -> Vec<Parameter> {

@@ -28,17 +28,24 @@ impl Pictures {
             return Ok(());
         };
         let (strength, toughness) = (case.number("strength")?, case.number("toughness")?);
-        let mut label = format!("{:.0} MPa, {toughness:.0} J/m²", 1e-6 * strength);
-        let mut name = format!("{:.0}-MPa-{toughness:.0}", 1e-6 * strength);
+        let explicit = case.choice("mode")? == "explicit";
+        let (mut label, mut name) = if explicit {
+            let label = format!("line, {toughness:.0} J/m²");
+            (label, format!("line-{toughness:.0}"))
+        } else {
+            let strength = 1e-6 * strength;
+            let label = format!("{strength:.0} MPa, {toughness:.0} J/m²");
+            (label, format!("{strength:.0}-MPa-{toughness:.0}"))
+        };
         if case.varying().contains(&"h") {
             let h = 1e3 * case.number("h")?;
             label = format!("{label}, h = {h} mm");
             name = format!("{name}-h-{h}");
         }
-        for other in ["band", "notch", "transfer", "shape"] {
+        for other in ["band", "notch", "line", "transfer", "shape"] {
             if case.varying().contains(&other) {
                 let value = case.choice(other)?;
-                let usual = matches!(value, "particle" | "gap" | "xpic" | "gimp");
+                let usual = matches!(value, "particle" | "gap" | "cells" | "xpic" | "gimp");
                 if !usual {
                     label = format!("{label}, {value}");
                 }

@@ -4,16 +4,25 @@
 //! |---|---|---|
 //! | `centre` | half of a plate with the crack 2a in its middle, twice as high as wide, a/W about 1/2 | σ√(πa) F, F = (1 − 0.025 λ² + 0.06 λ⁴) √sec(πλ/2) [Tada] |
 //! | `edge` | the same plate with the crack from its side | F = 1.12 − 0.231 λ + 10.55 λ² − 21.72 λ³ + 30.39 λ⁴ [Tada], λ ≤ 0.6, long strip |
-//! | `inclined` | a square plate of twelve crack lengths a, the crack 2a turned by `angle` | σ√(πa) (cos² β, sin β cos β), infinite plate |
+//! | `inclined` | a square plate of twenty crack lengths a, the crack 2a turned by `angle` | σ√(πa) (cos² β, sin β cos β), infinite plate |
 //! | `cantilever` | a double cantilever beam, arms of height a/10 | G = 12 P²(a + 0.67 H)²/(E′H³) and the opening 8 P (a + 0.67 H)³/(E′H³) |
 //!
-//! J is compared with (K_I² + K_II²)/E′ of the exact intensities; `contour_spread` is how far three domains differ.
+//! | `sneddon` | `inclined` with the normal along the load | opening `4 σ √(a² − x²)/E′`, volume `2 π σ a²/E′` [Sneddon] |
+//! | `closed` | `inclined` under pressure, faces with `friction` μ | 0, −σ√(πa) (sin β cos β − μ cos² β), 0 if that is negative |
+//! | `step` | `centre` between smooth walls when steps of stress from both ends reach it (explicit) | 4 σ √(c t (1 − 2ν)/π)/(1 − ν) [Freund 1990] |
+//!
+//! J is compared with (K_I² + K_II²)/E′ of the exact intensities; `contour_spread` is how far three domains differ. Of closed faces, which are loaded, K is read from
+//! their opening and sliding.
+
+mod plates;
+mod step;
 
 use std::f64::consts::PI;
 
 use fissure::diagnostics::MeasureError;
 use fissure::diagnostics::fracture::{
-    Annulus, PlaneElastic, TipField, TipFrame, contours, interaction,
+    Annulus, FaceJump, PlaneElastic, TipField, TipFrame, contours, interaction, opening_intensity,
+    opening_profile,
 };
 use fissure::prelude::*;
 
@@ -21,6 +30,8 @@ use fissure_study::{Overrides, Parameter, Parameters, Permitted, StudyError};
 
 use crate::method::{self, Method};
 use crate::problem::{Outcome, Problem, run_to};
+
+use self::plates::plate;
 
 /// The study `stress-intensity`.
 pub struct StressIntensity;
@@ -80,7 +91,15 @@ impl Problem for StressIntensity {
                 "case",
                 "plate",
                 "centre",
-                &["centre", "edge", "inclined", "cantilever"],
+                &[
+                    "centre",
+                    "edge",
+                    "inclined",
+                    "cantilever",
+                    "sneddon",
+                    "closed",
+                    "step",
+                ],
             ),
             Parameter::number(
                 "part",
@@ -96,6 +115,13 @@ impl Problem for StressIntensity {
                 45.0,
                 Permitted::numbers(0.0..=80.0),
             ),
+            Parameter::number(
+                "friction",
+                "between the faces that are pressed together",
+                "1",
+                0.0,
+                Permitted::at_least(0.0),
+            ),
         ]);
         parameters
     }
@@ -103,7 +129,14 @@ impl Problem for StressIntensity {
     fn cases(&self, quick: bool) -> Vec<Overrides> {
         let spacings = |cells: &[f64]| cells.iter().map(|cells| CRACK / cells).collect::<Vec<_>>();
         if quick {
-            return vec![Overrides::new().set("h", CRACK / 12.5)];
+            let coarse = || Overrides::new().set("h", CRACK / 12.5);
+            let tips = coarse().sweep("part", [0.0, 0.25, 0.75]);
+            let closed = Overrides::new().set("h", CRACK / 8.0).set("case", "closed");
+            return vec![
+                tips,
+                closed.sweep("friction", [0.0, 0.3]),
+                coarse().set("case", "step").set("solver", "explicit"),
+            ];
         }
         let tips = [0.0, 0.25, 0.5, 0.75];
         let all = |case: &'static str, cells: &[f64]| {
@@ -115,7 +148,10 @@ impl Problem for StressIntensity {
             all("centre", &[12.5, 25.0, 50.0]).sweep("part", tips),
             all("edge", &[12.5, 25.0, 50.0]).sweep("part", tips),
             all("inclined", &[12.5, 25.0]).sweep("angle", [22.5, 45.0, 67.5]),
-            all("cantilever", &[100.0, 160.0]),
+            all("cantilever", &[100.0, 160.0]).sweep("part", tips),
+            all("sneddon", &[12.5, 25.0]),
+            all("closed", &[12.5, 25.0]).sweep("friction", [0.0, 0.3, 0.6]),
+            all("step", &[25.0, 50.0]).set("solver", "explicit"),
             Overrides::new()
                 .set("h", CRACK / 12.5)
                 .set("solver", "explicit"),
@@ -128,13 +164,19 @@ impl Problem for StressIntensity {
 
     fn simulate(&self, case: &Parameters, method: &Method) -> Result<Outcome, StudyError> {
         let h = method.spacing;
-        // Waves run through the plate at about 5.8 km/s: slow loads let them die out.
+        if case.choice("case")? == "step" {
+            return step::simulate(case, method);
+        }
+        // Waves run through the plate at about 5.8 km/s: a load that grows slowly and smoothly makes next to none.
         let (ramp, end) = if method.is_dynamic() {
-            (4e-4, 8e-4)
+            (6e-4, 8e-4)
         } else {
             (1.0, 1.0)
         };
-        let load = move |t: f64| (t / ramp).min(1.0);
+        let load = move |t: f64| {
+            let part = (t / ramp).min(1.0);
+            part * part * (3.0 - 2.0 * part)
+        };
         let plate = plate(case, h, load).map_err(StudyError::failed("building the plate"))?;
         let margin = 4.0 * h;
         let grid = Grid::over(
@@ -147,13 +189,19 @@ impl Problem for StressIntensity {
         let mut scene = plate.scene;
         let wall_s = run_to(&mut scene, &mut *solver, end, case)?;
         let mut outcome = Outcome::of(scene, wall_s);
-        measure(&mut outcome, plate.k, plate.radius)
-            .map_err(StudyError::failed("measuring the tip"))?;
+        match case.choice("case")? {
+            "closed" => from_faces(&mut outcome, plate.k),
+            _ => measure(&mut outcome, plate.k, plate.radius),
+        }
+        .map_err(StudyError::failed("measuring the tip"))?;
         let tip = TipFrame::of(&outcome.scene.cracks()[0], End::Last);
         outcome.values.insert("a_over_h", CRACK / h);
         outcome.values.insert("tip_x", tip.position.x);
         if case.choice("case")? == "cantilever" {
             opening(&mut outcome, h);
+        }
+        if case.choice("case")? == "sneddon" {
+            profile(&mut outcome);
         }
         let stress = outcome.scene.bodies()[0].motion().stress;
         let field = stress.iter().map(|s| s.yy() / STRESS).collect();
@@ -217,135 +265,42 @@ fn tip_of(scene: &Scene<2>) -> f64 {
     scene.cracks()[0].tip(End::Last).0.x
 }
 
-fn plate(
-    case: &Parameters,
-    h: f64,
-    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
-) -> Result<Plate, Box<dyn std::error::Error + Send + Sync>> {
-    let a = CRACK + case.number("part")? * h;
-    match case.choice("case")? {
-        "inclined" => Ok(inclined(a, case.number("angle")?.to_radians(), h, load)?),
-        "cantilever" => Ok(cantilever(a, h, load)?),
-        other => Ok(upright(other == "centre", a, h, load)?),
+/// Intensities from what the faces do behind the tip, of faces that are loaded.
+fn from_faces(outcome: &mut Outcome, exact: [f64; 2]) -> Result<(), MeasureError> {
+    let crack = &outcome.scene.cracks()[0];
+    let half = 0.5 * crack.line().length();
+    let jumps = opening_profile(crack, End::Last);
+    let near = |jump: &&FaceJump| (0.08..0.3).contains(&(jump.distance / half));
+    let places: Vec<FaceJump> = jumps.iter().filter(near).copied().collect();
+    let found = opening_intensity(&places, 0.0, &ELASTIC)?;
+    let scale = STRESS * (PI * half).sqrt();
+    for (name, found, exact) in [("k1", found.k1, exact[0]), ("k2", found.k2, exact[1])] {
+        outcome.errors.insert(name, ((found - exact) / scale).abs());
+        outcome.values.insert(name, found);
+        outcome.values.insert(format!("{name}_exact"), exact);
     }
-}
-
-fn mouth() -> CrackSettings {
-    CrackSettings {
-        first: EndState::Mouth,
-        ..CrackSettings::default()
-    }
-}
-
-/// The plates with a crack along x from the left side, which is a plane of symmetry for `centre`.
-fn upright(
-    centre: bool,
-    a: f64,
-    h: f64,
-    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
-) -> Result<Plate, SceneError> {
-    let (width, height) = (2.0 * CRACK, 4.0 * CRACK);
-    let (low, high) = ([0.0, -height], [width, height]);
-    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
-    scene.fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?;
-    scene.crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?;
-    pull(&mut scene, width, height, h, load)?;
-    let ratio = a / width;
-    let form = if centre {
-        scene.hold(
-            "symmetry",
-            BODY,
-            move |x| x.x < 0.5 * h,
-            Hold::Component(Vector2::x()),
-            Constant(0.0),
-        )?;
-        (1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4)) / (0.5 * PI * ratio).cos().sqrt()
-    } else {
-        1.12 - 0.231 * ratio + 10.55 * ratio.powi(2) - 21.72 * ratio.powi(3) + 30.39 * ratio.powi(4)
-    };
-    Ok(Plate {
-        scene,
-        low,
-        high,
-        k: [STRESS * (PI * a).sqrt() * form, 0.0],
-        radius: 0.5 * CRACK,
-    })
-}
-
-/// The square plate with a crack in its middle, the normal of which is turned from y by `angle`.
-fn inclined(
-    a: f64,
-    angle: f64,
-    h: f64,
-    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
-) -> Result<Plate, SceneError> {
-    let half = 6.0 * CRACK;
-    let (low, high) = ([-half; 2], [half; 2]);
-    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
-    let (sine, cosine) = angle.sin_cos();
-    // Off the nodes, as the tips are.
-    let middle = [0.31 * h, 0.17 * h];
-    let end = |sign: f64| [middle[0] + sign * a * cosine, middle[1] + sign * a * sine];
-    scene
-        .fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?
-        .crack("crack", &[end(-1.0), end(1.0)], CrackSettings::default())?;
-    pull(&mut scene, 2.0 * half, half, h, load)?;
-    let k = STRESS * (PI * a).sqrt();
-    Ok(Plate {
-        scene,
-        low,
-        high,
-        k: [k * cosine * cosine, k * sine * cosine],
-        radius: 0.8 * CRACK,
-    })
-}
-
-/// Loads on the top and the bottom row.
-fn pull(
-    scene: &mut Scene<2>,
-    width: f64,
-    height: f64,
-    h: f64,
-    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
-) -> Result<(), SceneError> {
-    let top = move |x: &Vector2<f64>| x.y > height - 0.5 * h;
-    let bottom = move |x: &Vector2<f64>| x.y < -height + 0.5 * h;
-    let force = move |t: f64| Vector2::new(0.0, STRESS * width * load(t));
-    scene
-        .force("top", BODY, top, force)?
-        .force("bottom", BODY, bottom, move |t| -force(t))?;
     Ok(())
 }
 
-/// Two arms, pulled apart at their ends.
-fn cantilever(
-    a: f64,
-    h: f64,
-    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
-) -> Result<Plate, SceneError> {
-    let height = ARM * CRACK;
-    let (low, high) = ([0.0, -height], [1.6 * CRACK, height]);
-    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
-    let force = move |t: f64| Vector2::new(0.0, STRESS * CRACK * load(t));
-    scene
-        .fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?
-        .crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?
-        .force("upper", BODY, move |x| x.x < 0.5 * h && x.y > 0.0, force)?
-        .force(
-            "lower",
-            BODY,
-            move |x| x.x < 0.5 * h && x.y < 0.0,
-            move |t| -force(t),
-        )?;
-    // The loads act in the middle of the first column.
-    let arm = a - 0.25 * h + 0.67 * height;
-    let release =
-        12.0 * (STRESS * CRACK * arm).powi(2) / (ELASTIC.effective_modulus() * height.powi(3));
-    Ok(Plate {
-        scene,
-        low,
-        high,
-        k: [(release * ELASTIC.effective_modulus()).sqrt(), 0.0],
-        radius: 0.9 * height,
-    })
+/// Errors of the opening of a crack that stress pulls open, and of its volume.
+fn profile(outcome: &mut Outcome) {
+    let crack = &outcome.scene.cracks()[0];
+    let half = 0.5 * crack.line().length();
+    let most = 4.0 * STRESS / ELASTIC.effective_modulus();
+    let jumps = opening_profile(crack, End::Last);
+    let (mut square, mut scale, mut volume) = (0.0, 0.0, 0.0);
+    for jump in &jumps {
+        let x = jump.distance - half;
+        let exact = most * (half * half - x * x).max(0.0).sqrt();
+        square += (jump.opening - exact).powi(2);
+        scale += exact * exact;
+    }
+    for pair in jumps.windows(2) {
+        volume += 0.5 * (pair[0].opening + pair[1].opening) * (pair[1].distance - pair[0].distance);
+    }
+    let exact_volume = 0.5 * PI * most * half * half;
+    outcome.errors.insert("opening", (square / scale).sqrt());
+    outcome
+        .errors
+        .insert("volume", (volume / exact_volume - 1.0).abs());
 }

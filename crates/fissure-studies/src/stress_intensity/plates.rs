@@ -1,0 +1,184 @@
+//! The plates and their exact intensities.
+
+use std::f64::consts::PI;
+
+use fissure::prelude::*;
+use fissure_study::Parameters;
+
+use super::{ARM, BODY, CRACK, ELASTIC, Plate, STEEL, STRESS};
+
+pub(super) fn plate(
+    case: &Parameters,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, Box<dyn std::error::Error + Send + Sync>> {
+    let a = CRACK + case.number("part")? * h;
+    match case.choice("case")? {
+        "inclined" => Ok(inclined(a, case.number("angle")?.to_radians(), h, load)?),
+        "sneddon" => Ok(inclined(a, 0.0, h, load)?),
+        "closed" => {
+            let angle = case.number("angle")?.to_radians();
+            Ok(closed(a, angle, case.number("friction")?, h, load)?)
+        }
+        "cantilever" => Ok(cantilever(a, h, load)?),
+        other => Ok(upright(other == "centre", a, h, load)?),
+    }
+}
+
+pub(super) fn mouth() -> CrackSettings {
+    CrackSettings {
+        first: EndState::Mouth,
+        ..CrackSettings::default()
+    }
+}
+
+/// The plates with a crack along x from the left side, which is a plane of symmetry for `centre`.
+fn upright(
+    centre: bool,
+    a: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let (width, height) = (2.0 * CRACK, 4.0 * CRACK);
+    let (low, high) = ([0.0, -height], [width, height]);
+    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
+    scene.fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?;
+    scene.crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?;
+    pull(&mut scene, width, height, h, load)?;
+    let ratio = a / width;
+    let form = if centre {
+        scene.hold(
+            "symmetry",
+            BODY,
+            move |x| x.x < 0.5 * h,
+            Hold::Component(Vector2::x()),
+            Constant(0.0),
+        )?;
+        (1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4)) / (0.5 * PI * ratio).cos().sqrt()
+    } else {
+        1.12 - 0.231 * ratio + 10.55 * ratio.powi(2) - 21.72 * ratio.powi(3) + 30.39 * ratio.powi(4)
+    };
+    Ok(Plate {
+        scene,
+        low,
+        high,
+        k: [STRESS * (PI * a).sqrt() * form, 0.0],
+        radius: 0.5 * CRACK,
+    })
+}
+
+/// The square plate with a crack in its middle, the normal of which is turned from y by `angle`.
+fn inclined(
+    a: f64,
+    angle: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let k = STRESS * (PI * a).sqrt();
+    let (sine, cosine) = angle.sin_cos();
+    let k = [k * cosine * cosine, k * sine * cosine];
+    square(a, angle, h, load, ContactLaw::Frictionless, k)
+}
+
+/// The same pressed together, with friction of its faces.
+fn closed(
+    a: f64,
+    angle: f64,
+    friction: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let (sine, cosine) = angle.sin_cos();
+    let sliding = (sine * cosine - friction * cosine * cosine).max(0.0);
+    let k = [0.0, -STRESS * (PI * a).sqrt() * sliding];
+    square(
+        a,
+        angle,
+        h,
+        move |t| -load(t),
+        ContactLaw::Coulomb { friction },
+        k,
+    )
+}
+
+fn square(
+    a: f64,
+    angle: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+    contact: ContactLaw,
+    k: [f64; 2],
+) -> Result<Plate, SceneError> {
+    let half = 10.0 * CRACK;
+    let (low, high) = ([-half; 2], [half; 2]);
+    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
+    let (sine, cosine) = angle.sin_cos();
+    // Off the nodes, as the tips are.
+    let middle = [0.31 * h, 0.17 * h];
+    let end = |sign: f64| [middle[0] + sign * a * cosine, middle[1] + sign * a * sine];
+    let settings = CrackSettings {
+        contact,
+        ..CrackSettings::default()
+    };
+    scene
+        .fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?
+        .crack("crack", &[end(-1.0), end(1.0)], settings)?;
+    pull(&mut scene, 2.0 * half, half, h, load)?;
+    Ok(Plate {
+        scene,
+        low,
+        high,
+        k,
+        radius: 0.8 * CRACK,
+    })
+}
+
+/// Loads on the top and the bottom row.
+pub(super) fn pull(
+    scene: &mut Scene<2>,
+    width: f64,
+    height: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<(), SceneError> {
+    let top = move |x: &Vector2<f64>| x.y > height - 0.5 * h;
+    let bottom = move |x: &Vector2<f64>| x.y < -height + 0.5 * h;
+    let force = move |t: f64| Vector2::new(0.0, STRESS * width * load(t));
+    scene
+        .force("top", BODY, top, force)?
+        .force("bottom", BODY, bottom, move |t| -force(t))?;
+    Ok(())
+}
+
+/// Two arms, pulled apart at their ends.
+fn cantilever(
+    a: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let height = ARM * CRACK;
+    let (low, high) = ([0.0, -height], [1.6 * CRACK, height]);
+    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
+    let force = move |t: f64| Vector2::new(0.0, STRESS * CRACK * load(t));
+    scene
+        .fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?
+        .crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?
+        .force("upper", BODY, move |x| x.x < 0.5 * h && x.y > 0.0, force)?
+        .force(
+            "lower",
+            BODY,
+            move |x| x.x < 0.5 * h && x.y < 0.0,
+            move |t| -force(t),
+        )?;
+    // The loads act in the middle of the first column.
+    let arm = a - 0.25 * h + 0.67 * height;
+    let release =
+        12.0 * (STRESS * CRACK * arm).powi(2) / (ELASTIC.effective_modulus() * height.powi(3));
+    Ok(Plate {
+        scene,
+        low,
+        high,
+        k: [(release * ELASTIC.effective_modulus()).sqrt(), 0.0],
+        radius: 0.9 * height,
+    })
+}
