@@ -124,18 +124,22 @@ fn work(tip: f64, y: f64) -> f64 {
     kept
 }
 
-/// While a tip crosses a cell the compliance grows evenly: nodes are let go little by little.
+/// While a tip crosses a cell the compliance grows evenly: nodes are let go little by little. Along a line of nodes, that
+/// is; between lines it grows in every quarter of a cell, by up to three times as much in one as in another.
 #[test]
 fn a_tip_may_lie_anywhere_between_nodes() {
-    for y in [0.0, 0.5 * H, 0.3 * H] {
+    for (y, least, most) in [(0.0, 0.8, 1.5), (0.5 * H, 0.4, 2.5), (0.3 * H, 0.4, 2.5)] {
         let tips: Vec<f64> = (0..=8).map(|k| (7.0 + 0.25 * f64::from(k)) * H).collect();
         let works: Vec<f64> = tips.iter().map(|tip| work(*tip, y)).collect();
         let gains: Vec<f64> = works.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        // It also grows with the crack: by a factor of two over these two cells.
+        println!("y = {y}: {gains:?}");
         for pair in gains.windows(2) {
             let ratio = pair[1] / pair[0];
-            assert!((0.8..1.5).contains(&ratio), "y = {y}: {gains:?}");
+            assert!((least..most).contains(&ratio), "y = {y}: {gains:?}");
         }
-        assert!(gains[7] / gains[0] < 3.0, "y = {y}: {gains:?}");
+        // It also grows with the crack: by a factor of two over these two cells.
+        let cells = [&gains[..4], &gains[4..]].map(|cell| cell.iter().sum::<f64>());
+        let growth = cells[1] / cells[0];
+        assert!((1.4..2.2).contains(&growth), "y = {y}: {gains:?}");
     }
 }
