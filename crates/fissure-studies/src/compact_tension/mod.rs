@@ -97,14 +97,19 @@ impl Study for CompactTension {
         }
         // To the same share of the ligament: what turns with the halves opens in proportion to b.
         let sizes = [(0.15, 0.015), (0.3, 0.02), (0.6, 0.025)];
-        let of_size = |(ligament, h): (f64, f64)| {
-            Overrides::new()
+        let mut cases = Vec::new();
+        for (ligament, h) in sizes {
+            let size = Overrides::new()
                 .set("ligament", ligament)
                 .set("h", h)
-                .set("elongation", 12.0 * ligament / 0.15)
-                .sweep("failure", ["ideal", "multiple"])
-        };
-        sizes.map(of_size).into()
+                .set("elongation", 12.0 * ligament / 0.15);
+            cases.push(size.clone().set("failure", "ideal"));
+            cases.push(
+                size.set("failure", "multiple")
+                    .sweep("faces", ["free", "elastic"]),
+            );
+        }
+        cases
     }
 
     fn run(&self, cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
