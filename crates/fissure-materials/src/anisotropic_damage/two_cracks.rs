@@ -363,7 +363,10 @@ impl<N: Softening, T: Softening> Material for TwoCrackDamage<N, T> {
     ) -> Result<(Response<TwoCrackState>, Tangent), MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step::<false>(&kinematics, increment, old)?;
-        let response = self.update(increment, old)?;
+        let response = match self.0.sound::<false>(increment, &old.first) {
+            Some(one) => with_first(&one, old),
+            None => self.response(&kinematics, &step, old),
+        };
         let tangent = match step {
             Both::Two(.., true) => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
             _ => self.step_tangent::<false>(&kinematics, &step, increment),
