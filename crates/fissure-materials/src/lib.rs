@@ -17,6 +17,7 @@
 
 mod anisotropic_damage;
 mod biot;
+mod bisection;
 mod cohesive;
 pub mod contract;
 mod cracking;

@@ -8,6 +8,7 @@
 //! as well, and its best point counts if it beats the edges.
 
 use super::maximise_on_octant;
+use crate::bisection::bisect;
 
 /// A function of Mohr's plane.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +82,7 @@ pub(super) fn largest(
         for k in 1..=INTERVALS {
             let after = slope(if k == INTERVALS { 1.0 } else { grid(k) });
             if before > 0.0 && after < 0.0 {
-                let share = falling_zero(&slope, grid(k - 1), grid(k));
+                let [share, _] = bisect(grid(k - 1), grid(k), |share| slope(share) > 0.0);
                 let p = on_edge(share);
                 best.consider(at(p).value, p, 1e-13);
             }
@@ -100,20 +101,4 @@ pub(super) fn largest(
         best.consider(value, n.component_mul(&n).into(), 0.0);
     }
     (best.value, best.p)
-}
-
-/// Where a function falls through zero between two places, by bisection to neighbouring numbers.
-fn falling_zero(function: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if function(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }

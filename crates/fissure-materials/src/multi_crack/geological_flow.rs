@@ -26,6 +26,7 @@ use super::{
     Decohesion, Plane, Trial,
     decohesion::{contact, slide},
 };
+use crate::bisection::bisect;
 use crate::{
     Initiation, MaterialError, Scale, Softening, check_parameter,
     criteria::{FailureCriterion, Geological, OnPlane},
@@ -92,7 +93,7 @@ impl<S: Softening> Opening<'_, S> {
     /// The opening at the end of the step; `None` if it is beyond the critical one.
     fn solve(&self) -> Option<f64> {
         let critical = self.law.softening.critical() * self.law.length();
-        let mut low = self.old_opening;
+        let low = self.old_opening;
         let mut high = critical;
         if !critical.is_finite() {
             let free = (self.rest.normal / self.normal_stiffness).max(0.0);
@@ -108,18 +109,7 @@ impl<S: Softening> Opening<'_, S> {
         if !(self.excess(high).0 >= 0.0) {
             return None;
         }
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if self.excess(middle).0 < 0.0 {
-                low = middle
-            } else {
-                high = middle
-            }
-        }
-        Some(high)
+        Some(bisect(low, high, |opening| self.excess(opening).0 < 0.0)[1])
     }
 }
 
@@ -151,19 +141,8 @@ impl<S: Softening> GeologicalFlow<S> {
 
     /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane.
     fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64) -> f64 {
-        let (mut low, mut high) = (0.0, most);
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if self.surface.along(&(*stress * middle), normal) > 0.0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        high
+        let is_below = |share: f64| !(self.surface.along(&(*stress * share), normal) > 0.0);
+        bisect(0.0, most, is_below)[1]
     }
 
     /// The shear traction at which a failed plane that holds until then starts to slide, on the straight way from
@@ -184,16 +163,7 @@ impl<S: Softening> GeologicalFlow<S> {
         if !holds(0.0) {
             return sheared;
         }
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if holds(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        at(high)
+        at(bisect(0.0, 1.0, holds)[1])
     }
 
     /// Whether the plane stays as it was.
