@@ -59,10 +59,13 @@ const ALLOWED: [(&str, &[&str]); 12] = [
         ],
     ),
     ("fissure-study", &[]),
-    ("fissure-law-studies", &["fissure", "fissure-study"]),
+    (
+        "fissure-laws",
+        &["fissure-tensor", "fissure-materials", "fissure-study"],
+    ),
     (
         "fissure-studies",
-        &["fissure", "fissure-study", "fissure-law-studies"],
+        &["fissure", "fissure-study", "fissure-laws"],
     ),
 ];
 

@@ -30,6 +30,25 @@ pub trait Hardening: Debug + Send + Sync + 'static {
     fn work(&self, plastic_strain: f64) -> f64;
 }
 
+/// Hardening that is chosen when the program runs: `J2<Box<dyn Hardening>>` is one law of any.
+impl<H: Hardening + ?Sized> Hardening for Box<H> {
+    fn check(&self) -> Result<(), MaterialError> {
+        (**self).check()
+    }
+
+    fn stress(&self, plastic_strain: f64) -> f64 {
+        (**self).stress(plastic_strain)
+    }
+
+    fn slope(&self, plastic_strain: f64) -> f64 {
+        (**self).slope(plastic_strain)
+    }
+
+    fn work(&self, plastic_strain: f64) -> f64 {
+        (**self).work(plastic_strain)
+    }
+}
+
 /// `σ = σ₀ + H α`; perfectly plastic with `H = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linear {

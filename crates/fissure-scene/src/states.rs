@@ -33,12 +33,12 @@ impl Place {
 /// First histories of particles, by row, in ascending order.
 pub(crate) type Fresh<S> = Vec<(u32, S)>;
 
-/// Bytes that a particle's state takes in a body of this law, with its trial copy and the place of
-/// it: without a history, and with one.
-pub const fn state_bytes<M: Material>() -> [usize; 2] {
-    let both = 2 * size_of::<M::State>();
+/// Bytes that a particle's state of this size takes in a body, with its trial copy and the place of
+/// it: without a history, and with one. `sparse` is the law's [`Material::SPARSE`].
+pub const fn state_bytes(size: usize, sparse: bool) -> [usize; 2] {
+    let both = 2 * size;
     let place = size_of::<Place>();
-    if M::SPARSE {
+    if sparse {
         [place, place + both]
     } else {
         [both, both]

@@ -9,6 +9,7 @@ mod bar_snapback;
 mod compact_tension;
 mod convergence;
 mod filling;
+mod laws;
 mod method;
 pub mod nairn;
 mod problem;
@@ -38,6 +39,6 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     studies.push(Box::new(bar_snapback::BarSnapback));
     studies.push(Box::new(compact_tension::CompactTension));
     studies.extend(nairn::studies());
-    studies.extend(fissure_law_studies::studies());
+    studies.extend(laws::studies());
     studies
 }

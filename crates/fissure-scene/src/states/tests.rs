@@ -171,7 +171,7 @@ fn what_does_not_fit_is_refused_when_restored() {
 
 #[test]
 fn a_particle_without_a_history_costs_four_bytes() {
-    assert_eq!(state_bytes::<Counting<true>>(), [4, 44]);
-    assert_eq!(state_bytes::<Counting<false>>(), [40, 40]);
-    assert_eq!(state_bytes::<fissure_materials::Hencky>(), [0, 0]);
+    assert_eq!(state_bytes(20, true), [4, 44]);
+    assert_eq!(state_bytes(20, false), [40, 40]);
+    assert_eq!(state_bytes(0, false), [0, 0]);
 }

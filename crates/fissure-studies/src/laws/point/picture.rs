@@ -6,7 +6,7 @@ use fissure::io::plot::{LinePlot, Style};
 use fissure::materials::EventKind;
 
 use super::components;
-use crate::laws::{Followed, Reached};
+use fissure_laws::{Followed, Reached};
 use fissure_study::StudyError;
 
 /// Draws the picture, with the events as markers.

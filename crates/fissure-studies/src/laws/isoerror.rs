@@ -2,8 +2,11 @@
 
 use fissure::io::plot::ScatterPlot;
 
-use crate::laws::{self, Chosen, Map, NAMES, OWN, POSITIVE, number_or};
+use fissure_laws::{Map, NAMES, OWN, POSITIVE, Space};
+
 use fissure_study::{Overrides, Parameter, Parameters, Permitted, Report, Row, Study, StudyError};
+
+use super::chosen::{self, Chosen, number_or};
 
 /// The study `isoerror`.
 pub struct Isoerror;
@@ -21,7 +24,7 @@ impl Study for Isoerror {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = laws::parameters("decohesive");
+        let mut parameters = chosen::parameters("decohesive");
         parameters.push(Parameter {
             name: "band",
             meaning: "width of a crack's band; the law's own is half its limit, or 10 mm",
@@ -59,12 +62,12 @@ impl Study for Isoerror {
         if quick {
             vec![all.set("cells", 11_u64).set("parts", 50_u64)]
         } else {
-            vec![all.sweep("space", laws::Space::NAMES.iter().copied())]
+            vec![all.sweep("space", Space::NAMES.iter().copied())]
         }
     }
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
-        for case in laws::offered(cases)? {
+        for case in chosen::offered(cases)? {
             let chosen = Chosen::of(case)?;
             let (cells, parts) = (case.size("cells")?, case.size("parts")?);
             let band = number_or(case, "band", chosen.law.band())?;

@@ -1,8 +1,9 @@
 //! Random walks through the states of a law, in step sizes from round-off to absurd.
 
-use fissure::materials::contract::Random;
-use fissure::prelude::*;
-use fissure::tensor::rotation;
+use fissure_materials::contract::Random;
+use fissure_materials::*;
+use fissure_tensor::rotation;
+use fissure_tensor::{Band, Matrix3, Sym, Vector3};
 
 /// What a walk is after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! Parameters that many laws share, and what is made of them.
 
-use fissure::prelude::*;
+use fissure_materials::*;
 
-use crate::laws::parameter::{LawParameter, Values};
-pub(super) use crate::laws::parameter::{density, poisson, strength, toughness, young};
+use crate::parameter::{LawParameter, Values};
+pub(super) use crate::parameter::{density, poisson, strength, toughness, young};
 
 /// Those of [`isotropic`], of concrete.
 pub(super) const ELASTIC: &[LawParameter] = &[density(2350.0), young(24.9e9), poisson(0.18)];

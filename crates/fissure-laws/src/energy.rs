@@ -1,9 +1,10 @@
 //! Energy to failure of pure opening, whatever the way there (P8).
 
-use fissure::materials::contract::Random;
-use fissure::prelude::*;
+use fissure_materials::contract::Random;
+use fissure_materials::*;
+use fissure_tensor::{Band, Matrix3, Sym, Vector3};
 
-use super::law::{Fracture, Subject};
+use super::subject::{Fracture, Subject};
 
 /// Largest `|Σ dissipated × band / G − 1|` over random paths of loading, unloading and contact
 /// along one normal, in 1 to 1000 steps, with bands up to 0.99 of the limit. NaN for a law that

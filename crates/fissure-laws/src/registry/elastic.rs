@@ -1,11 +1,12 @@
 //! Laws without memory: solids and a gas.
 
-use fissure::prelude::*;
+use fissure_materials::*;
+use fissure_tensor::Matrix3;
 
 use super::Entry;
 use super::parameters::{ELASTIC, density, isotropic, poisson, young};
-use crate::laws::law::plain;
-use crate::laws::parameter::{LawParameter, Values};
+use crate::parameter::{LawParameter, Values};
+use crate::subject::plain;
 
 pub(super) const ISOTROPIC: Entry = Entry {
     name: "isotropic",

@@ -3,10 +3,11 @@
 use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use fissure::materials::contract::{Random, tangent_error};
-use fissure::prelude::*;
+use fissure_materials::contract::{Random, tangent_error};
+use fissure_materials::*;
+use fissure_tensor::Matrix3;
 
-use super::law::{State, Subject, stiffness};
+use super::subject::{State, Subject, stiffness};
 use super::walk::{Kind, Proposal, STEPS, Walk};
 
 /// Counts of a fuzz.

@@ -1,8 +1,9 @@
 //! The error of one step against many, over a plane of increments (P20).
 
-use fissure::prelude::*;
+use fissure_materials::*;
+use fissure_tensor::{Band, Matrix3, Sym};
 
-use super::law::{Subject, stiffness};
+use super::subject::{Subject, stiffness};
 
 /// One increment of the plane.
 #[derive(Clone, Copy, Debug)]

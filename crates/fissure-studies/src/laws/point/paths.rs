@@ -3,7 +3,8 @@
 use fissure::io::table::Table;
 use fissure::prelude::*;
 
-use crate::laws::{Chosen, Space, number_or};
+use crate::laws::chosen::{Chosen, number_or};
+use fissure_laws::Space;
 use fissure_study::{Parameters, StudyError, Value};
 
 /// Names of the paths.

@@ -1,21 +1,6 @@
-//! The constitutive laws as the studies use them: one registry, and what can be asked of any law.
+//! Which law a case asks for.
 
-mod energy;
-mod fuzz;
-mod isoerror;
-mod law;
-mod parameter;
-mod registry;
-mod speed;
-mod walk;
-
-pub use fuzz::Fuzzed;
-pub use isoerror::{Cell, Map};
-pub use law::{Followed, Happened, Law, Reached, Space};
-pub use parameter::{LawParameter, OWN, POSITIVE, Setting, Values, study_parameters};
-pub use registry::{Entry, LAWS, NAMES, entry};
-pub use speed::Speed;
-
+use fissure_laws::{Entry, Law, NAMES, OWN, Space, Values, entry, study_parameters};
 use fissure_study::{Parameter, ParameterError, Parameters, StudyError, Value};
 
 /// The parameters that say which law: its name, where it is used, and its own parameters.

@@ -2,8 +2,11 @@
 
 use std::time::Instant;
 
-use crate::laws::{self, Chosen, NAMES, Space};
+use fissure_laws::{NAMES, Space};
+
 use fissure_study::{Overrides, Parameter, Parameters, Permitted, Report, Row, Study, StudyError};
+
+use super::chosen::{self, Chosen};
 
 /// The study `laws`.
 pub struct LawTable;
@@ -23,7 +26,7 @@ impl Study for LawTable {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = laws::parameters(NAMES[0]);
+        let mut parameters = chosen::parameters(NAMES[0]);
         parameters.push(Parameter::count(
             "updates",
             "asked of each law",
@@ -57,7 +60,7 @@ impl Study for LawTable {
     }
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
-        for case in laws::offered(cases)? {
+        for case in chosen::offered(cases)? {
             let (row, first) = row(case)?;
             report.row(row)?;
             if let Some(first) = first {
@@ -78,7 +81,8 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
     let start = Instant::now();
     let fuzzed = law.fuzz(updates, seed);
     let wall_s = start.elapsed().as_secs_f64();
-    let [undamaged, cracked] = law.bytes();
+    let (size, sparse) = law.state_size();
+    let [undamaged, cracked] = fissure::scene::state_bytes(size, sparse);
     let row = Row::other("laws")
         .field("law", chosen.name())
         .field("updates", fuzzed.updates)
@@ -99,6 +103,7 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
         .field("bytes_undamaged", undamaged)
         .field("bytes_cracked", cracked)
         .field("ratio_damaging", speed.damaging)
+        .field("ratio_damaging_plane", speed.damaging_plane)
         .field("sound", fuzzed.sound)
         .field("typed_errors_elsewhere", fuzzed.typed_errors_elsewhere)
         .field("cracked", fuzzed.cracked)

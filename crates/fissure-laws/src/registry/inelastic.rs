@@ -1,12 +1,13 @@
 //! Plasticity, and damage without a crack.
 
-use fissure::materials::{DamageSurface, Hardening, Relaxation, hardening};
-use fissure::prelude::*;
+use fissure_materials::*;
+use fissure_materials::{DamageSurface, Hardening, Relaxation, hardening};
 
 use super::Entry;
 use super::parameters::{density, isotropic, poisson, strength, toughness, young};
-use crate::laws::law::{Law, Space, banded, plain};
-use crate::laws::parameter::{LawParameter, Values};
+use crate::law::{Law, Space};
+use crate::parameter::{LawParameter, Values};
+use crate::subject::{banded, plain};
 
 pub(super) const J2_LINEAR: Entry = Entry {
     name: "j2",
@@ -41,12 +42,12 @@ pub(super) const J2_VOCE: Entry = Entry {
     ],
     plane_stress: true,
     build: |values, space| {
-        let law = hardening::Voce {
+        let law: Box<dyn Hardening> = Box::new(hardening::Voce {
             yield_stress: values.number("yield_stress"),
             saturation: values.number("saturation"),
             rate: values.number("saturation_rate"),
             modulus: values.number("hardening_modulus"),
-        };
+        });
         metal(values, law, space)
     },
 };
@@ -59,18 +60,15 @@ pub(super) const J2_TABLE: Entry = Entry {
     build: |values, space| {
         let first = values.number("yield_stress");
         let points = [(0.0, first), (0.05, 1.4 * first), (0.2, 1.6 * first)];
-        match hardening::Table::new(points) {
-            Ok(table) => metal(values, table, space),
+        let law: Box<dyn Hardening> = match hardening::Table::new(points) {
+            Ok(table) => Box::new(table),
             // Whose check says what is wrong with it.
-            Err(_) => metal(
-                values,
-                hardening::Linear {
-                    yield_stress: first,
-                    modulus: 0.0,
-                },
-                space,
-            ),
-        }
+            Err(_) => Box::new(hardening::Linear {
+                yield_stress: first,
+                modulus: 0.0,
+            }),
+        };
+        metal(values, law, space)
     },
 };
 

@@ -6,8 +6,11 @@ mod picture;
 use fissure::materials::EventKind;
 use fissure::tensor::Sym;
 
-use crate::laws::{self, Chosen, Followed, Happened, OWN, POSITIVE, Reached, number_or};
+use fissure_laws::{Followed, Happened, OWN, POSITIVE, Reached};
+
 use fissure_study::{Overrides, Parameter, Parameters, Permitted, Report, Row, Study, StudyError};
+
+use super::chosen::{self, Chosen, number_or};
 
 /// The study `point`.
 pub struct PointStudy;
@@ -38,7 +41,7 @@ impl Study for PointStudy {
             default: vec![OWN.into()],
             permitted: Permitted::WordOr(OWN, permitted),
         };
-        let mut parameters = laws::parameters("decohesive");
+        let mut parameters = chosen::parameters("decohesive");
         parameters.extend([
             own(
                 "band",

@@ -1,14 +1,18 @@
 //! The elastic-decohesive law: each softening curve, a lowered strength, several planes, shear.
 
-use fissure::materials::criteria::Geological;
-use fissure::materials::multi_crack::{GeologicalFlow, ModeOne, Planes, Shear, Unloading};
-use fissure::prelude::*;
+use fissure_materials::criteria::Geological;
+use fissure_materials::multi_crack::{
+    GeologicalFlow, ModeOne, MultiCrack, Planes, Shear, Unloading,
+};
+use fissure_materials::*;
+use fissure_tensor::Vector3;
 
 use super::Entry;
 use super::elastic::EXPANSION;
 use super::parameters::{FRICTION, density, isotropic, poisson, strength, toughness, young};
-use crate::laws::law::{cracking, lowered};
-use crate::laws::parameter::{LawParameter, Values};
+use crate::curve::Curve;
+use crate::parameter::{LawParameter, Values};
+use crate::subject::{cracking, lowered};
 
 /// Parameters of the law in opening with these of the softening curve.
 macro_rules! parameters {
@@ -56,7 +60,7 @@ pub(super) const BILINEAR: Entry = Entry {
             kink_opening: values.number("kink_opening"),
             kink_ratio: values.number("kink_ratio"),
         };
-        cracking(decohesive(values, curve), space)
+        cracking(decohesive(values, Curve::Bilinear(curve)), space)
     },
 };
 
@@ -72,7 +76,10 @@ pub(super) const POWER_LAW: Entry = Entry {
     plane_stress: true,
     build: |values, space| {
         let exponent = values.number("exponent");
-        cracking(decohesive(values, softening::PowerLaw { exponent }), space)
+        cracking(
+            decohesive(values, Curve::PowerLaw(softening::PowerLaw { exponent })),
+            space,
+        )
     },
 };
 
@@ -81,7 +88,12 @@ pub(super) const EXPONENTIAL: Entry = Entry {
     about: "the same with exponential softening",
     parameters: parameters!(),
     plane_stress: true,
-    build: |values, space| cracking(decohesive(values, softening::Exponential), space),
+    build: |values, space| {
+        cracking(
+            decohesive(values, Curve::Exponential(softening::Exponential)),
+            space,
+        )
+    },
 };
 
 pub(super) const CUBIC_STEP: Entry = Entry {
@@ -89,7 +101,12 @@ pub(super) const CUBIC_STEP: Entry = Entry {
     about: "the same with a cubic step",
     parameters: parameters!(),
     plane_stress: true,
-    build: |values, space| cracking(decohesive(values, softening::CubicStep), space),
+    build: |values, space| {
+        cracking(
+            decohesive(values, Curve::CubicStep(softening::CubicStep)),
+            space,
+        )
+    },
 };
 
 pub(super) const DOUBLE_EXPONENTIAL: Entry = Entry {
@@ -115,7 +132,7 @@ pub(super) const DOUBLE_EXPONENTIAL: Entry = Entry {
             decay_ratio: values.number("decay_ratio"),
             weight: values.number("weight"),
         };
-        cracking(decohesive(values, curve), space)
+        cracking(decohesive(values, Curve::DoubleExponential(curve)), space)
     },
 };
 

@@ -1,6 +1,7 @@
 //! Anisotropic damage and its variants.
 
-use fissure::prelude::*;
+use fissure_materials::*;
+use fissure_tensor::Vector3;
 
 use super::Entry;
 use super::elastic::{
@@ -8,8 +9,8 @@ use super::elastic::{
     orthotropic,
 };
 use super::parameters::{FRICTION, density, isotropic, poisson, strength, toughness, young};
-use crate::laws::law::cracking;
-use crate::laws::parameter::{LawParameter, Values};
+use crate::parameter::{LawParameter, Values};
+use crate::subject::cracking;
 
 const PARAMETERS: &[LawParameter] = &[
     density(1000.0),
