@@ -18,9 +18,10 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale, Softening,
-    check_parameter,
+    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale, SheetStep,
+    Softening, check_parameter,
     error::{check_below, check_scaled_toughness},
+    sheet::{Thickening, in_sheet},
     softening::{Linear, opening},
     sound::{below, sound},
     turning::Turning,
@@ -268,6 +269,28 @@ impl<S: Softening> Material for Decohesive<S> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &DecohesiveState,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<DecohesiveState>>, MaterialError> {
+        let across = match self.normal {
+            Normal::Rankine => self.elastic.poisson >= 0.0,
+            Normal::Prescribed(normal) => normal.z == 0.0,
+        };
+        if !across {
+            return Ok(None);
+        }
+        let solid = &self.elastic;
+        let law = Self {
+            elastic: solid.sheet(),
+            ..*self
+        };
+        let measure = Thickening::Stretch;
+        in_sheet(&law, solid, measure, increment, old, with_tangent).map(Some)
     }
 
     fn tangent(

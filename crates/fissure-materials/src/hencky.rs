@@ -9,7 +9,8 @@ use fissure_tensor::{Matrix3, Sym, Tangent};
 
 use crate::finite_strain::LeftStrain;
 use crate::logarithmic::LogStrain;
-use crate::{Increment, Isotropic, Material, MaterialError, Response, Scale};
+use crate::sheet::{Thickening, in_sheet};
+use crate::{Increment, Isotropic, Material, MaterialError, Response, Scale, SheetStep};
 
 const NAME: &str = "Hencky elasticity";
 
@@ -90,6 +91,20 @@ impl Material for Hencky {
     fn tangent(&self, increment: &Increment, _old: &()) -> Result<Tangent, MaterialError> {
         let elastic = self.elastic.scaled(&increment.external.scale);
         Ok(Principal::new(&elastic, &increment.f_new)?.tangent(&elastic))
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &(),
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<()>>, MaterialError> {
+        let solid = &self.elastic;
+        let law = Self {
+            elastic: solid.sheet(),
+        };
+        let measure = Thickening::Logarithm;
+        in_sheet(&law, solid, measure, increment, old, with_tangent).map(Some)
     }
 }
 

@@ -6,7 +6,8 @@ use fissure_tensor::{Matrix3, Sym, Tangent};
 
 use crate::{
     EIGHT, EightPoints, EightResponses, Increment, Material, MaterialError, Response, Scale,
-    check_parameter,
+    SheetStep, check_parameter,
+    sheet::{checked, flat},
 };
 
 /// Isotropic elastic constants, and the small-strain law of that name.
@@ -160,6 +161,37 @@ impl Material for Isotropic {
             // δτ/J = δσ + tr(d) σ; the Truesdell rate takes dσ + σd off.
             elastic.stress(&strain_rate) + stress * d.trace()
                 - Sym::from_matrix(&(d_matrix * stress_matrix)) * 2.0
+        }))
+    }
+
+    /// As in `sheet.rs`, but for Cauchy's stress, which sees no thickness; its Truesdell rate does.
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &(),
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<()>>, MaterialError> {
+        let flat = flat(increment);
+        let law = self.sheet();
+        let response = law.update(&flat, old)?;
+        let elastic = law.scaled(&flat.external.scale);
+        let per_stress = -0.5 / elastic.shear_modulus();
+        let thickening = checked(&flat, response.stress.zz() * per_stress)?;
+        let tangent = if with_tangent {
+            let fixed = law.tangent(&flat, old)?;
+            let thinning = Tangent::from_columns(|d| {
+                let strain_rate = Sym::from_matrix(&(d.to_matrix() * flat.f_new));
+                let rate = elastic.lambda() * strain_rate.trace() * per_stress;
+                response.stress * (rate / (1.0 + thickening))
+            });
+            Some(fixed + thinning)
+        } else {
+            None
+        };
+        Ok(Some(SheetStep {
+            response,
+            thickening,
+            tangent,
         }))
     }
 }

@@ -46,6 +46,7 @@ mod plane_stress;
 mod point;
 mod rotated;
 mod scalar_damage;
+mod sheet;
 pub mod softening;
 mod sound;
 mod tension_shear;

@@ -9,7 +9,8 @@ use fissure_tensor::{Matrix3, Sym, Tangent};
 use crate::finite_strain::{LeftStrain, log_of_one_plus};
 use crate::{
     EIGHT, EightPoints, EightResponses, Increment, Isotropic, Material, MaterialError, Response,
-    Scale,
+    Scale, SheetStep,
+    plane_stress::{condensed, with_thickness},
 };
 
 /// Parameters of the compressible neo-Hookean law.
@@ -133,6 +134,45 @@ impl Material for NeoHookean {
             stored,
             dissipated: 0.0,
         })
+    }
+
+    /// `ln F_zz` is the root of `μ (e^(2g) − 1) + λ (ln J₀ + g)` with `J₀` of the plane: convex and rising for
+    /// λ ≥ 0, so that Newton's method comes down to it from wherever its first step ends.
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &(),
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<()>>, MaterialError> {
+        let Constants { lambda, shear, .. } = self.constants();
+        if lambda < 0.0 {
+            return Ok(None);
+        }
+        let flat = with_thickness(&increment.f_new, 0.0);
+        let (log, _) = log_of_one_plus(LeftStrain::new(&flat)?.dilation);
+        let mut root = -lambda * log / (2.0 * shear + lambda);
+        for _ in 0..64 {
+            let excess = (2.0 * root).exp_m1();
+            let value = shear * excess + lambda * (log + root);
+            let next = root - value / (2.0 * shear * (excess + 1.0) + lambda);
+            let settled = (next - root).abs() <= f64::EPSILON * root.abs();
+            root = next;
+            if settled {
+                break;
+            }
+        }
+        let thickening = root.exp_m1();
+        let end = increment.with_end(with_thickness(&flat, thickening));
+        let tangent = if with_tangent {
+            Some(condensed(&self.tangent(&end, old)?)?)
+        } else {
+            None
+        };
+        Ok(Some(SheetStep {
+            response: self.update(&end, old)?,
+            thickening,
+            tangent,
+        }))
     }
 
     #[inline(always)]

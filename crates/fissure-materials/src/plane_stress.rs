@@ -128,7 +128,7 @@ impl<M: Material> PlaneStress<M> {
 }
 
 /// The in-plane response at `σ₃₃ = 0`; rows and columns out of the plane are zero.
-fn condensed(tangent: &Tangent) -> Result<Tangent, MaterialError> {
+pub(crate) fn condensed(tangent: &Tangent) -> Result<Tangent, MaterialError> {
     let c = tangent.0;
     flattened(Tangent(c - c.column(2) * c.row(2) / c[(2, 2)]))
 }

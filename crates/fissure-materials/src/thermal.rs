@@ -22,8 +22,8 @@ use crate::isotropic::check_deformation;
 use crate::orthotropic::check_axes;
 use crate::wrapping::{hand_on_cracking, hand_on_material};
 use crate::{
-    Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
-    check_parameter,
+    Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale, SheetStep,
+    check_parameter, sheet,
 };
 
 const NAME: &str = "thermal expansion";
@@ -239,6 +239,28 @@ impl<M: Material> Material for Thermal<M> {
         let response = self.law.update(&inner, &old.inner)?;
         let temperature = increment.external.temperature;
         Ok(Self::response(response, &stretch, temperature))
+    }
+
+    /// That of the law inside, where the expansion does not turn out of the sheet.
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
+        if !matches!(self.expansion, Expansion::Isotropic(_)) {
+            return Ok(None);
+        }
+        let (inner, stretch) = self.mechanical(&sheet::flat(increment), old)?;
+        let Some(step) = self.law.plane_stress(&inner, &old.inner, with_tangent)? else {
+            return Ok(None);
+        };
+        let [expansion, ..] = stretch.values;
+        Ok(Some(SheetStep {
+            response: Self::response(step.response, &stretch, increment.external.temperature),
+            thickening: (1.0 + step.thickening) * expansion - 1.0,
+            tangent: step.tangent,
+        }))
     }
 
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {

@@ -63,6 +63,12 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
+    /// Whether a plane across a sheet does not ask for the stress along the plane, so that plane stress
+    /// has a closed form.
+    fn ignores_stress_along(&self) -> bool {
+        false
+    }
+
     /// Refuses parameters outside their range.
     ///
     /// # Errors

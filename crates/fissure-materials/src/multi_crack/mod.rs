@@ -35,6 +35,7 @@ mod cracking;
 mod decohesion;
 mod dense;
 mod geological_flow;
+mod law;
 mod mode_one;
 mod relax;
 mod start;
@@ -52,9 +53,7 @@ pub use state::{MultiCrackState, Plane};
 
 use crate::{
     Biot, Increment, Initiation, Isotropic, Material, MaterialError, Response, Scale,
-    check_parameter,
     error::{check_below, check_scaled_toughness},
-    material::{DIFFERENCE_STEP, difference_tangent},
     sound::sound,
 };
 use relax::{elastic_strain, relax};
@@ -140,14 +139,20 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         }
     }
 
-    /// The plane that a stress asks for, if it may start.
-    fn starting(
+    /// The plane that a stress asks for, if it may start; in a sheet one across it.
+    fn starting<const SHEET: bool>(
         &self,
         stress: &Sym,
         state: &MultiCrackState<N>,
         kinematics: &Biot,
         band: &Band,
     ) -> Result<Option<Plane>, MaterialError> {
+        let mut stress = *stress;
+        if SHEET {
+            // Needed to hold the thickness only; see `sheet.rs`.
+            stress.mandel[2] = 0.0;
+        }
+        let stress = &stress;
         if state.planes().len() >= self.most() || self.decohesion.upper_bound(stress) <= 0.0 {
             return Ok(None);
         }
@@ -175,7 +180,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
     }
 
     /// The law of one particle (see [`Self::scaled`]) over a step.
-    fn step(
+    fn step<const SHEET: bool>(
         &self,
         f: &Matrix3<f64>,
         band: &Band,
@@ -192,7 +197,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         loop {
             let planes = state.planes_mut();
             let stress = relax(decohesion, elastic, &strain, start.planes(), planes)?;
-            let Some(plane) = self.starting(&stress, &state, &kinematics, band)? else {
+            let Some(plane) = self.starting::<SHEET>(&stress, &state, &kinematics, band)? else {
                 return Ok(Step {
                     kinematics,
                     strain,
@@ -241,6 +246,23 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
 }
 
 impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
+    /// The update of one particle (see [`Self::scaled`]), in a solid or with the constants of a sheet.
+    fn respond<const SHEET: bool>(
+        &self,
+        increment: &Increment,
+        old: &MultiCrackState<N>,
+    ) -> Result<Response<MultiCrackState<N>>, MaterialError> {
+        if old.planes().is_empty() {
+            // A margin for round-off: the exact test decides at the surface.
+            let accepts = |stress: &Sym| self.decohesion.upper_bound(stress) < -1e-9;
+            if let Some(response) = sound(&self.elastic, &increment.f_new, accepts)? {
+                return Ok(response);
+            }
+        }
+        let step = self.step::<SHEET>(&increment.f_new, &increment.band, old)?;
+        self.response(&step, old)
+    }
+
     /// What a plane sees at the end of a step.
     fn trial(&self, stress: &Sym, plane: &Plane) -> Trial {
         Trial {
@@ -275,125 +297,5 @@ fn turn(planes: &mut [Plane], strain: &Sym) {
         let traction = plane.normal().dot(&Vector3::from(plane.traction));
         plane.normal = normal.into();
         plane.traction = (normal * traction).into();
-    }
-}
-
-impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
-    type State = MultiCrackState<N>;
-    const SPARSE: bool = true;
-    /// Energies are those of opening, J/m³, at a toughness scale of 1.
-    const NAMES: &'static [&'static str] = &[
-        "planes",
-        "failed_planes",
-        "opening",
-        "failed_energy",
-        "unfailed_energy",
-    ];
-
-    fn check(&self) -> Result<(), MaterialError> {
-        self.elastic.check_for(NAME)?;
-        self.decohesion.check()?;
-        if matches!(self.planes, Planes::Multiple(_)) {
-            let valid = N < 2 || self.decohesion.several();
-            let rule = "1 for this decohesion";
-            check_parameter(NAME, "number of planes", N as f64, valid, rule)?;
-        }
-        if let Planes::Multiple(Some(angle)) = self.planes {
-            let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
-            check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;
-        }
-        Ok(())
-    }
-
-    /// The band limit of one plane, and with a threshold angle given that of two planes that far
-    /// apart, `2μ sin²θ > h`.
-    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
-        let law = self.scaled(scale);
-        let width = band.max_width();
-        law.check_width(width)?;
-        if let Planes::Multiple(Some(angle)) = self.planes {
-            let limit = width * angle.sin().powi(2) / law.unique_above(width);
-            if !(width < limit) {
-                return Err(MaterialError::Band {
-                    law: NAME,
-                    width,
-                    limit,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
-        let started = new.planes().iter().skip(old.planes().len());
-        started.map(|plane| plane.width).fold(0.0, f64::max)
-    }
-
-    fn isotropic(&self) -> bool {
-        self.decohesion.isotropic()
-    }
-
-    fn continuous(&self) -> bool {
-        self.decohesion.continuous()
-    }
-
-    fn density(&self) -> f64 {
-        self.elastic.density
-    }
-
-    /// That of the sound material times the longest stretch.
-    fn wave_speed(&self, f: &Matrix3<f64>, _state: &Self::State, scale: &Scale) -> f64 {
-        self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
-    }
-
-    fn has_history(&self, state: &Self::State) -> bool {
-        !state.planes().is_empty()
-    }
-
-    fn update(
-        &self,
-        increment: &Increment,
-        old: &Self::State,
-    ) -> Result<Response<Self::State>, MaterialError> {
-        let law = self.scaled(&increment.external.scale);
-        if old.planes().is_empty() {
-            // A margin for round-off: the exact test decides at the surface.
-            let accepts = |stress: &Sym| law.decohesion.upper_bound(stress) < -1e-9;
-            if let Some(response) = sound(&law.elastic, &increment.f_new, accepts)? {
-                return Ok(response);
-            }
-        }
-        let step = law.step(&increment.f_new, &increment.band, old)?;
-        law.response(&step, old)
-    }
-
-    /// Analytic while no plane starts and none turns, for planes whose return has a derivative;
-    /// else the trait's difference quotient.
-    fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
-        let law = self.scaled(&increment.external.scale);
-        let step = law.step(&increment.f_new, &increment.band, old)?;
-        match law.modulus(&step, old) {
-            Some(modulus) => Ok(step.kinematics.spatial_tangent(&step.biot_stress, &modulus)),
-            None => difference_tangent(self, increment, old, DIFFERENCE_STEP),
-        }
-    }
-
-    fn has_own_tangent(&self, old: &Self::State, new: &Self::State) -> bool {
-        let kept = new.planes().len() == old.planes().len() && self.planes != Planes::Rotating;
-        new.planes().is_empty() || kept
-    }
-
-    fn values(&self, state: &Self::State, out: &mut [f64]) {
-        let planes = state.planes();
-        out[0] = planes.len() as f64;
-        out[1] = planes.iter().filter(|plane| plane.failed).count() as f64;
-        out[2] = planes.iter().map(|plane| plane.opening).fold(0.0, f64::max);
-        let energy = |failed: bool| -> f64 {
-            let these = planes.iter().filter(|plane| plane.failed == failed);
-            let spent = these
-                .map(|plane| self.decohesion.dissipated_fraction(plane.softened) / plane.width);
-            spent.sum::<f64>() * self.decohesion.toughness()
-        };
-        (out[3], out[4]) = (energy(true), energy(false));
     }
 }

@@ -152,6 +152,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         matches!(self.shear, Shear::Elastic | Shear::Coulomb(0.0))
     }
 
+    fn ignores_stress_along(&self) -> bool {
+        true
+    }
+
     fn check(&self) -> Result<(), MaterialError> {
         let positive =
             |field, value: f64| check_parameter(NAME, field, value, value > 0.0, "finite and > 0");

@@ -1,4 +1,6 @@
 use super::*;
+use crate::contract::Random;
+use crate::multi_crack::{ModeOne, MultiCrack, Planes, Shear, Unloading};
 use crate::softening::Linear;
 use crate::{Axis, Decohesive, Hencky, Isotropic, NeoHookean, Normal, Path, Point, PointError};
 
@@ -174,5 +176,80 @@ fn a_large_reversal_cracks_in_the_plane() -> Result<(), MaterialError> {
         .update(&increment.with_end(pulled), &law.initial())?
         .state;
     assert!((direct.thickening - state.thickening).abs() < 1e-15);
+    Ok(())
+}
+
+/// Steps of a law along a random walk in the plane, in closed form and by the search for the thickness.
+fn check_closed_form<M: Material>(law: M, size: f64) -> Result<usize, MaterialError> {
+    let law = PlaneStress(law);
+    let modulus = law.modulus(&Scale::default());
+    let mut random = Random::new(11).in_plane(true);
+    let mut histories = 0;
+    for _ in 0..40 {
+        let mut old = law.initial();
+        let mut increment = Increment::to(Matrix3::identity());
+        increment.band = Band::Uniform(2e-3);
+        for _ in 0..12 {
+            let turn = Matrix3::identity() + random.strain_direction(true).to_matrix() * size;
+            increment.f_new = random.rotation() * turn;
+            let step = law.0.plane_stress(&increment, &old.inner, false)?;
+            let Some(step) = step else {
+                panic!("no closed form")
+            };
+            let closed = PlaneStress::<M>::response(&step.response, step.thickening);
+            let solved = law.solve(&increment, &old)?;
+            let found = PlaneStress::<M>::response(&solved.response, solved.thickening);
+            let gap = (closed.stress - found.stress).max_abs();
+            assert!(gap <= 1e-11 * modulus, "{gap:e} of {modulus:e}");
+            assert!((step.thickening - solved.thickening).abs() <= 1e-11);
+            assert!((closed.stored - found.stored).abs() <= 1e-11 * modulus * size);
+            histories += usize::from(law.has_history(&closed.state));
+            (old, increment.f_old) = (closed.state, increment.f_new);
+        }
+    }
+    Ok(histories)
+}
+
+#[test]
+fn the_closed_forms_are_what_the_search_finds() -> Result<(), MaterialError> {
+    let rubber = NeoHookean {
+        density: 1100.0,
+        young: 2e6,
+        poisson: 0.45,
+    };
+    check_closed_form(ELASTIC, 0.1)?;
+    check_closed_form(Hencky { elastic: ELASTIC }, 0.3)?;
+    check_closed_form(rubber, 0.3)?;
+    assert!(check_closed_form(cohesive(), 3e-4)? > 200);
+    for (planes, shear) in [
+        (Planes::Fixed, Shear::Damaged(0.3)),
+        (Planes::Multiple(None), Shear::Elastic),
+    ] {
+        let law: MultiCrack<4, ModeOne> = MultiCrack {
+            elastic: ELASTIC,
+            decohesion: ModeOne {
+                strength: 3e6,
+                toughness: 60.0,
+                softening: Linear,
+                unloading: Unloading::Secant,
+                shear,
+            },
+            planes,
+        };
+        assert!(check_closed_form(law, 3e-4)? > 200);
+    }
+    Ok(())
+}
+
+/// A law that widens when it is pulled has no closed form: `T_zz` could be the largest stress.
+#[test]
+fn a_negative_poisson_ratio_is_searched_for() -> Result<(), MaterialError> {
+    let mut law = cohesive();
+    law.elastic.poisson = -0.2;
+    let step = Increment::to(in_plane(-1e-3, 0.0, 0.0, -1e-3));
+    assert!(law.plane_stress(&step, &law.initial(), false)?.is_none());
+    let law = PlaneStress(law);
+    let state = law.update(&step, &law.initial())?.state;
+    assert!(state.inner.width == 0.0 && state.thickening < 0.0);
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::*;
 use crate::Cracking;
 use crate::contract::Random;
+use crate::material::difference_tangent;
 
 const BAND: Band = Band::Uniform(0.01);
 
@@ -135,7 +136,7 @@ fn tangent_of_several_planes_is_that_of_differences() -> Result<(), MaterialErro
             from = *to;
         }
         let step = step_to(&from, &(from * 1.02), BAND);
-        let end = law.step(&step.f_new, &BAND, &state)?;
+        let end = law.step::<false>(&step.f_new, &BAND, &state)?;
         let Some(modulus) = law.modulus(&end, &state) else {
             continue;
         };

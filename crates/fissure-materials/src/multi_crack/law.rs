@@ -1,0 +1,151 @@
+//! The law with several planes as a [`Material`].
+
+use fissure_tensor::{Band, Matrix3, Tangent};
+
+use super::{Decohesion, MultiCrack, MultiCrackState, NAME, Planes};
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::sheet::{Thickening, flat, thinned};
+use crate::{
+    Biot, Increment, Material, MaterialError, Response, Scale, SheetStep, check_parameter,
+};
+
+impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
+    type State = MultiCrackState<N>;
+    const SPARSE: bool = true;
+    /// Energies are those of opening, J/m³, at a toughness scale of 1.
+    const NAMES: &'static [&'static str] = &[
+        "planes",
+        "failed_planes",
+        "opening",
+        "failed_energy",
+        "unfailed_energy",
+    ];
+
+    fn check(&self) -> Result<(), MaterialError> {
+        self.elastic.check_for(NAME)?;
+        self.decohesion.check()?;
+        if matches!(self.planes, Planes::Multiple(_)) {
+            let valid = N < 2 || self.decohesion.several();
+            let rule = "1 for this decohesion";
+            check_parameter(NAME, "number of planes", N as f64, valid, rule)?;
+        }
+        if let Planes::Multiple(Some(angle)) = self.planes {
+            let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
+            check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;
+        }
+        Ok(())
+    }
+
+    /// The band limit of one plane, and with a threshold angle given that of two planes that far
+    /// apart, `2μ sin²θ > h`.
+    fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
+        let law = self.scaled(scale);
+        let width = band.max_width();
+        law.check_width(width)?;
+        if let Planes::Multiple(Some(angle)) = self.planes {
+            let limit = width * angle.sin().powi(2) / law.unique_above(width);
+            if !(width < limit) {
+                return Err(MaterialError::Band {
+                    law: NAME,
+                    width,
+                    limit,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn started_width(&self, old: &Self::State, new: &Self::State) -> f64 {
+        let started = new.planes().iter().skip(old.planes().len());
+        started.map(|plane| plane.width).fold(0.0, f64::max)
+    }
+
+    fn isotropic(&self) -> bool {
+        self.decohesion.isotropic()
+    }
+
+    fn continuous(&self) -> bool {
+        self.decohesion.continuous()
+    }
+
+    fn density(&self) -> f64 {
+        self.elastic.density
+    }
+
+    /// That of the sound material times the longest stretch.
+    fn wave_speed(&self, f: &Matrix3<f64>, _state: &Self::State, scale: &Scale) -> f64 {
+        self.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(f)
+    }
+
+    fn has_history(&self, state: &Self::State) -> bool {
+        !state.planes().is_empty()
+    }
+
+    fn update(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<Response<Self::State>, MaterialError> {
+        self.scaled(&increment.external.scale)
+            .respond::<false>(increment, old)
+    }
+
+    /// Where planes stand across the sheet and stay as they start.
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
+        let across = self.decohesion.ignores_stress_along() && self.elastic.poisson >= 0.0;
+        if !across || self.planes == Planes::Rotating {
+            return Ok(None);
+        }
+        let sheet = Self {
+            elastic: self.elastic.sheet(),
+            ..*self
+        };
+        let law = sheet.scaled(&increment.external.scale);
+        let flat = flat(increment);
+        let response = law.respond::<true>(&flat, old)?;
+        let mut tangent = None;
+        if with_tangent {
+            let step = law.step::<true>(&flat.f_new, &flat.band, old)?;
+            let modulus = law.modulus(&step, old);
+            let spatial = |modulus| step.kinematics.spatial_tangent(&step.biot_stress, &modulus);
+            tangent = modulus.map(spatial);
+        }
+        let measure = Thickening::Stretch;
+        thinned(&flat, response, tangent, &self.elastic, measure).map(Some)
+    }
+
+    /// Analytic while no plane starts and none turns, for planes whose return has a derivative;
+    /// else the trait's difference quotient.
+    fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
+        let law = self.scaled(&increment.external.scale);
+        let step = law.step::<false>(&increment.f_new, &increment.band, old)?;
+        match law.modulus(&step, old) {
+            Some(modulus) => Ok(step.kinematics.spatial_tangent(&step.biot_stress, &modulus)),
+            None => difference_tangent(self, increment, old, DIFFERENCE_STEP),
+        }
+    }
+
+    fn has_own_tangent(&self, old: &Self::State, new: &Self::State) -> bool {
+        let kept = new.planes().len() == old.planes().len() && self.planes != Planes::Rotating;
+        new.planes().is_empty() || kept
+    }
+
+    fn values(&self, state: &Self::State, out: &mut [f64]) {
+        let planes = state.planes();
+        out[0] = planes.len() as f64;
+        out[1] = planes.iter().filter(|plane| plane.failed).count() as f64;
+        out[2] = planes.iter().map(|plane| plane.opening).fold(0.0, f64::max);
+        let energy = |failed: bool| -> f64 {
+            let these = planes.iter().filter(|plane| plane.failed == failed);
+            let spent = these
+                .map(|plane| self.decohesion.dissipated_fraction(plane.softened) / plane.width);
+            spent.sum::<f64>() * self.decohesion.toughness()
+        };
+        (out[3], out[4]) = (energy(true), energy(false));
+    }
+}
