@@ -162,7 +162,7 @@ pub(super) const FIXED_PLANE: Entry = Entry {
     name: "mode-one-fixed",
     about: "one failure plane that opens, as it started",
     parameters: MODE_ONE,
-    plane_stress: true,
+    plane_stress: false,
     build: |values, space| cracking(mode_one::<1>(values, Planes::Fixed), space),
 };
 
@@ -170,7 +170,7 @@ pub(super) const SEVERAL_PLANES: Entry = Entry {
     name: "mode-one-multiple",
     about: "up to six failure planes that open",
     parameters: MODE_ONE,
-    plane_stress: true,
+    plane_stress: false,
     build: |values, space| cracking(mode_one::<6>(values, Planes::Multiple(None)), space),
 };
 

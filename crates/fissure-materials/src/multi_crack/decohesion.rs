@@ -63,9 +63,9 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
-    /// Whether a plane across a sheet does not ask for the stress along the plane, so that plane stress
-    /// has a closed form.
-    fn ignores_stress_along(&self) -> bool {
+    /// Whether a plane across a sheet asks for nothing out of the sheet, neither stress nor stiffness, so
+    /// that plane stress has a closed form.
+    fn has_sheet_form(&self) -> bool {
         false
     }
 

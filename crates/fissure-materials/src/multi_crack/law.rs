@@ -97,7 +97,7 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         old: &Self::State,
         with_tangent: bool,
     ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
-        let across = self.decohesion.ignores_stress_along() && self.elastic.poisson >= 0.0;
+        let across = self.decohesion.has_sheet_form() && self.elastic.poisson >= 0.0;
         if !across || self.planes == Planes::Rotating {
             return Ok(None);
         }

@@ -152,8 +152,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         matches!(self.shear, Shear::Elastic | Shear::Coulomb(0.0))
     }
 
-    fn ignores_stress_along(&self) -> bool {
-        true
+    /// The damage in shear is measured against the modulus across the plane of the solid, not of the
+    /// sheet.
+    fn has_sheet_form(&self) -> bool {
+        !matches!(self.shear, Shear::Damaged(_))
     }
 
     fn check(&self) -> Result<(), MaterialError> {
