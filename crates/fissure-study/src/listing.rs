@@ -144,22 +144,78 @@ fn values_run(parameter: &Parameter, cases: &[Parameters]) -> Vec<Value> {
     values
 }
 
-fn aligned<const COLUMNS: usize>(lines: &[[String; COLUMNS]]) -> String {
+/// Widest a column gets before its cells go over several lines.
+const WIDEST: usize = 40;
+
+/// A table with the columns below one another; long cells go on in the lines below.
+fn aligned<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
+    let rows: Vec<[Vec<String>; COLUMNS]> = rows
+        .iter()
+        .map(|row| row.each_ref().map(|cell| broken(cell)))
+        .collect();
     let mut widths = [0; COLUMNS];
-    for line in lines {
-        for (width, text) in widths.iter_mut().zip(line) {
-            *width = text.chars().count().max(*width);
+    for row in &rows {
+        for (width, lines) in widths.iter_mut().zip(row) {
+            let widest = lines.iter().map(|line| line.chars().count()).max();
+            *width = widest.unwrap_or_default().max(*width);
         }
     }
     let mut table = String::new();
-    for line in lines {
-        let padded: Vec<String> = line
-            .iter()
-            .zip(widths)
-            .map(|(text, width)| format!("{text:<width$}"))
-            .collect();
-        table.push_str(padded.join("  ").trim_end());
-        table.push('\n');
+    for row in &rows {
+        let height = row.iter().map(Vec::len).max().unwrap_or_default();
+        for line in 0..height {
+            let cells = row.iter().zip(widths).map(|(lines, width)| {
+                let text = lines.get(line).map_or("", String::as_str);
+                format!("{text:<width$}")
+            });
+            table.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
+            table.push('\n');
+        }
     }
     table
+}
+
+/// A cell in lines that break after a comma or a blank where they would be too wide.
+fn broken(cell: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in cell.split_inclusive([' ', ',']) {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].chars().count() + word.chars().count() > WIDEST {
+            lines.push(String::new());
+        }
+        let last = lines.len() - 1;
+        lines[last].push_str(word);
+    }
+    lines.iter().map(|line| line.trim().to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_cells_go_on_below_and_columns_stay_aligned() {
+        let names = [
+            "isotropic",
+            "hencky",
+            "neo-hookean",
+            "orthotropic",
+            "viscous-damage",
+        ];
+        let rows = [
+            ["parameter", "permitted", "meaning"].map(String::from),
+            ["law".into(), names.join(", "), "constitutive law".into()],
+        ];
+        let table = aligned(&rows);
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(lines.len(), 3);
+        assert!(
+            lines
+                .iter()
+                .all(|line| line.len() <= 9 + 2 + WIDEST + 2 + 16)
+        );
+        assert_eq!(lines[1].find("constitutive"), lines[0].find("meaning"));
+        assert_eq!(lines[2].trim(), "orthotropic, viscous-damage");
+        assert_eq!(lines[2].find("orthotropic"), lines[0].find("permitted"));
+    }
 }
