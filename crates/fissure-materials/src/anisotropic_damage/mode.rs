@@ -50,7 +50,8 @@ impl<S: Softening> Mode<S> {
             strength,
             toughness,
             modulus,
-            stiffness: modulus * toughness / (strength * strength * width),
+            // Quotients, since a square of a strength in small units may be nothing.
+            stiffness: (modulus / strength) * (toughness / strength) / width,
             softening: &self.softening,
         }
     }
@@ -60,7 +61,8 @@ impl<S: Softening> ModeAt<'_, S> {
     /// Largest band with a unique response, m: `M 𝒢/(σ² max(−f'))`, which is (36) with the factor
     /// `1/η = max(−f') ∫f` of (37), the area being one.
     pub fn band_limit(&self) -> f64 {
-        self.modulus * self.toughness / (self.strength * self.strength * self.softening.steepest())
+        (self.modulus / self.strength) * (self.toughness / self.strength)
+            / self.softening.steepest()
     }
 
     /// Whether nothing is left to soften.
