@@ -21,4 +21,4 @@ mod surface;
 pub use error::CrackError;
 pub use growth::{Grown, Growth, GrowthCriterion, GrowthError, grow_cracks};
 pub use polyline::{Foot, Polyline, Side};
-pub use surface::{CrackLine, CrackSettings, End, EndState, VertexMotion};
+pub use surface::{CarriedCrack, CrackLine, CrackSettings, End, EndState, VertexMotion};

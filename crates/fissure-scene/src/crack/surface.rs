@@ -62,6 +62,13 @@ pub struct VertexMotion {
     pub jump: Vector2<f64>,
 }
 
+/// Where a step leaves a crack.
+#[derive(Clone, Debug)]
+pub struct CarriedCrack {
+    line: Polyline,
+    jump: Vec<Vector2<f64>>,
+}
+
 /// A crack in a plane scene: in plane strain and stress it goes through the thickness, in
 /// axisymmetry it is the surface that its line sweeps about the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -225,8 +232,19 @@ impl CrackLine {
     /// [`CrackError::NotFinite`] or [`CrackError::NoLength`]; the crack is then as it was.
     pub fn carry(
         &mut self,
-        mut motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
+        motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
     ) -> Result<(), CrackError> {
+        self.carried(motion).map(|carried| self.accept(carried))
+    }
+
+    /// What [`carry`](Self::carry) would make of it, to [`accept`](Self::accept) when all else has succeeded.
+    ///
+    /// # Errors
+    /// As of [`carry`](Self::carry).
+    pub fn carried(
+        &self,
+        mut motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
+    ) -> Result<CarriedCrack, CrackError> {
         let mut jump = self.jump.clone();
         let line = self.line.carried(|(i, x)| {
             let moved = motion(i, x);
@@ -237,8 +255,12 @@ impl CrackLine {
         if let Some(vertex) = jump.iter().position(|j| !finite(j)) {
             return Err(CrackError::NotFinite { vertex });
         }
-        (self.line, self.jump) = (line, jump);
-        Ok(())
+        Ok(CarriedCrack { line, jump })
+    }
+
+    /// Takes the place and the jumps that [`carried`](Self::carried) has found for it.
+    pub fn accept(&mut self, carried: CarriedCrack) {
+        (self.line, self.jump) = (carried.line, carried.jump);
     }
 
     /// Lets a tip grow straight to a new place, m. Other cracks are not asked:
