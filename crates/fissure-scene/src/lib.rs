@@ -42,7 +42,7 @@ pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
 pub use contact::{Contact, ContactLaw};
 pub use crack::{
-    CarriedCrack, CrackError, CrackLine, CrackSettings, End, EndState, Foot, Grown, Growth, GrowthCriterion,
+    Bond, BondAnswer, FacePoint, CarriedCrack, CrackError, CrackLine, CrackSettings, End, EndState, Foot, Grown, Growth, GrowthCriterion,
     GrowthError, Polyline, Side, VertexMotion, grow_cracks,
 };
 pub use error::{PersistError, SceneError, SolveError, WatchError};

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::{CrackError, Polyline, Side};
+use super::{CrackError, FacePoint, Polyline, Side};
 use crate::contact::ContactLaw;
 
 /// One of the two ends of a crack.
@@ -79,6 +79,7 @@ pub struct CrackLine {
     jump: Vec<Vector2<f64>>,
     ends: [EndState; 2],
     contact: ContactLaw,
+    bonded: Vec<FacePoint>,
 }
 
 impl CrackLine {
@@ -100,6 +101,7 @@ impl CrackLine {
             placed,
             ends: [settings.first, settings.last],
             contact: settings.contact,
+            bonded: Vec::new(),
         })
     }
 
@@ -195,6 +197,23 @@ impl CrackLine {
         let foot = self.line.foot(x);
         let (i, t) = (foot.segment, foot.fraction);
         (foot.normal, self.jump[i] * (1.0 - t) + self.jump[i + 1] * t)
+    }
+
+    /// Where the place of the crack that is nearest to `x` was put, m.
+    pub fn placed_at(&self, x: &Vector2<f64>) -> Vector2<f64> {
+        let foot = self.line.foot(x);
+        let (i, t) = (foot.segment, foot.fraction);
+        self.placed[i] * (1.0 - t) + self.placed[i + 1] * t
+    }
+
+    /// What the law between its faces remembers, as the last step left it.
+    pub fn bonded(&self) -> &[FacePoint] {
+        &self.bonded
+    }
+
+    /// Puts down what the law between its faces remembers. For solvers.
+    pub fn set_bonded(&mut self, points: Vec<FacePoint>) {
+        self.bonded = points;
     }
 
     /// Divides segments longer than `longest` (m) into equal pieces. For solvers, whose nodes see more

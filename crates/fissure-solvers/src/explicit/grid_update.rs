@@ -85,7 +85,9 @@ impl<const D: usize> NodeForces<'_, D> {
             }
         }
         self.book_energy(&nodes.end, &mut energy);
-        energy.contact = self.meetings.energy(sums, &nodes.end, &impulses);
+        let [contact, glued] = self.meetings.energy(sums, &nodes.end, &impulses);
+        energy.contact = contact;
+        energy.internal += glued;
         if gains {
             nodes.carried.resize(sums.len(), Default::default());
             let end = &nodes.end;

@@ -289,7 +289,10 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             StressUpdate::First | StressUpdate::Musl => &nodes.straining,
         };
         release.keep(grid, meetings.tied(place, straining, dt));
+        let mut glued = meetings.glued(straining, dt);
+        internal += glued.work;
         cracks.accept(scene, placement);
+        glued.keep(scene);
         for body in scene.bodies_mut() {
             body.commit()?;
         }
@@ -304,8 +307,8 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             internal,
             staggering: report.energy.internal - internal,
             half_step,
-            stored: totals.stored,
-            dissipated: totals.dissipated,
+            stored: totals.stored + glued.stored,
+            dissipated: totals.dissipated + glued.dissipated,
             viscous: totals.viscous,
             kinetic_particles: kinetic,
             ..report.energy
