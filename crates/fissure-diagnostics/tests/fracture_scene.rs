@@ -15,8 +15,8 @@ use fissure_grid::{Grid, shape};
 use fissure_materials::{AnisotropicDamage, Isotropic, Mode, Scale, softening};
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{
-    CrackSettings, End, EndState, EnergyTotals, Hold, Plane, Report, Scene, Until, Velocity, VertexMotion,
-    grow_cracks, run,
+    CrackSettings, End, EndState, EnergyTotals, Hold, Plane, Report, Scene, Until, Velocity,
+    VertexMotion, grow_cracks, run,
 };
 use fissure_solvers::{QuasiStatic, QuasiStaticSettings};
 use fissure_tensor::{Matrix3, Sym};
@@ -225,14 +225,23 @@ fn an_edge_crack_runs_through() {
         let axes = [(Vector2::y(), sign), (Vector2::x(), 0.0)];
         for (axis, share) in axes {
             let moved = Velocity(move |t| share * speed(t));
-            let name = if share == 0.0 { format!("{name}, along") } else { name.to_owned() };
+            let name = if share == 0.0 {
+                format!("{name}, along")
+            } else {
+                name.to_owned()
+            };
             scene
                 .hold(&name, "plate", grip, Hold::Component(axis), moved)
                 .unwrap();
         }
     }
     let margin = 4.0 * h;
-    let grid = Grid::over([-margin, -half - margin], [width + margin, half + margin], h).unwrap();
+    let grid = Grid::over(
+        [-margin, -half - margin],
+        [width + margin, half + margin],
+        h,
+    )
+    .unwrap();
     let settings = QuasiStaticSettings {
         step: 1.0,
         ..QuasiStaticSettings::default()
@@ -259,7 +268,12 @@ fn an_edge_crack_runs_through() {
     println!("{loads:?}");
     assert!(scene.cracks()[0].tips().next().is_none());
     assert!(scene.cracks()[0].tip(End::Last).0.x > width);
-    assert!(loads.windows(2).all(|pair| pair[1] < pair[0] * (1.0 + 1e-9) + 1e-3), "{loads:?}");
+    assert!(
+        loads
+            .windows(2)
+            .all(|pair| pair[1] < pair[0] * (1.0 + 1e-9) + 1e-3),
+        "{loads:?}"
+    );
     let last = loads[loads.len() - 1];
     assert!(last.abs() < 1e-6 * loads[0], "{loads:?}");
 }

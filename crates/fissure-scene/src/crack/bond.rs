@@ -151,8 +151,7 @@ impl<const D: usize> Scene<D> {
     /// The law between the faces of the crack of this number.
     pub fn bond_of(&self, crack: usize) -> Option<&Bond> {
         let mut bonds = self.bonds.iter();
-        bonds
-            .find_map(|(of, bond)| (*of == crack).then_some(bond))
+        bonds.find_map(|(of, bond)| (*of == crack).then_some(bond))
     }
 
     /// Whether any crack has a law between its faces.

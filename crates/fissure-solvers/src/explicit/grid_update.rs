@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::contact::{Gap, Meetings};
 use crate::constraints::Constraints;
 use crate::loads::Loads;
-use crate::nodes::{Field, MASSIVE, NodeSums, element, vector};
+use crate::nodes::{Field, NodeSums, element, vector};
 
 /// Nodal velocities of a step, m/s.
 #[derive(Debug, Default)]
@@ -32,23 +32,6 @@ pub(crate) struct NodeForces<'a, const D: usize> {
     /// Mass below which a node feels no force, kg.
     pub lightest: f64,
     pub dt: f64,
-}
-
-/// Work of the nodes' internal forces on a displacement of `dt` times these velocities, J; positive when it is stored.
-pub(crate) fn work<const D: usize>(
-    force: impl Fn(usize) -> SVector<f64, D> + Sync,
-    velocities: &Field,
-    dt: f64,
-) -> f64 {
-    let chunks = velocities.par_chunks(CHUNK).enumerate();
-    let parts: Vec<f64> = chunks
-        .map(|(chunk, velocities)| {
-            let nodes = (chunk * CHUNK..).zip(velocities);
-            let massive = nodes.filter(|(_, v)| v[MASSIVE] > 0.0);
-            massive.fold(0.0, |sum, (node, v)| sum - force(node).dot(&vector(v)) * dt)
-        })
-        .collect();
-    parts.iter().sum()
 }
 
 impl<const D: usize> NodeForces<'_, D> {
@@ -142,7 +125,7 @@ impl<const D: usize> NodeForces<'_, D> {
 }
 
 /// Nodes that a thread works on at a time.
-const CHUNK: usize = 2048;
+pub(super) const CHUNK: usize = 2048;
 
 /// Calls `work` with the number and the element of every node.
 pub(crate) fn each_node<T: Send>(elements: &mut [T], work: impl Fn(usize, &mut T) + Sync) {

@@ -6,15 +6,16 @@ use fissure_grid::{Grid, Shape};
 use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use rayon::prelude::*;
 
+use super::booking::Booking;
 use super::contact::{Gap, Meetings};
-use super::grid_update::{Nodes, each_node, work};
+use super::grid_update::Nodes;
 use super::kernels::Giving;
 use super::phases::{Pass, Phases, mean_particle_mass, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::checks::{check_columns, check_until};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
-use crate::nodes::{MASSIVE, NodeSums, element, vector};
+use crate::nodes::{MASSIVE, NodeSums, vector};
 use crate::placement::Placement;
 use crate::release::Release;
 use crate::transfers::Transfers;
@@ -219,23 +220,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             phases.meetings.bond(sums);
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
-        let (mut internal, mut half_step) = (0.0, 0.0);
-        match stress_update {
-            StressUpdate::First => {
-                let force = |node| sums.internal_force(node);
-                let works = [&nodes.straining, &nodes.end].map(|v| work(force, v, dt));
-                internal = 0.5 * (totals.work + works[0]);
-                half_step = 0.5 * works[1];
-            }
-            StressUpdate::Last => internal = 0.5 * work(|i| sums.internal_force(i), &nodes.end, dt),
-            // The sums will be made anew before it is known what strains.
-            StressUpdate::Musl => {
-                nodes.forces.resize(sums.len(), Default::default());
-                each_node(&mut nodes.forces, |node, force| {
-                    *force = element(&sums.internal_force(node), true);
-                });
-            }
-        }
+        let mut booking = Booking::accelerated(stress_update, sums, nodes, &totals, dt);
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
         let light = LIGHT * phases.mean_particle_mass;
         let cracks = carried(scene, grid, placement, |node| {
@@ -255,8 +240,6 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                 pass.strains = true;
                 pass.giving = Giving::AllOn;
                 totals = phases.sweep(scene, sums, pass)?;
-                internal += 0.5 * totals.work;
-                half_step = -0.5 * totals.work;
             }
             StressUpdate::Musl => {
                 pass.giving = Giving::MomentumBack;
@@ -271,14 +254,10 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                     giving: Giving::AllOn,
                 };
                 totals = phases.sweep(scene, sums, pass)?;
-                let before = work(
-                    |i| vector::<D>(&nodes.forces[i]),
-                    &nodes.straining,
-                    dt,
-                );
-                internal = 0.5 * (before + totals.work);
-                half_step = -0.5 * totals.work;
             }
+        }
+        if stress_update != StressUpdate::First {
+            booking.strained::<D>(stress_update, nodes, &totals, dt);
         }
 
         // Everything succeeded: the trial becomes the present.
@@ -290,7 +269,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         };
         release.keep(grid, meetings.tied(place, straining, dt));
         let mut glued = meetings.glued(straining, dt);
-        internal += glued.work;
+        let internal = booking.internal + glued.work;
         cracks.accept(scene, placement);
         glued.keep(scene);
         for body in scene.bodies_mut() {
@@ -306,7 +285,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         report.energy = StepEnergy {
             internal,
             staggering: report.energy.internal - internal,
-            half_step,
+            half_step: booking.half_step,
             stored: totals.stored + glued.stored,
             dissipated: totals.dissipated + glued.dissipated,
             viscous: totals.viscous,

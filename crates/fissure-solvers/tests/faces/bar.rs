@@ -3,9 +3,7 @@
 use fissure_grid::{Grid, shape};
 use fissure_materials::{Cohesive, Isotropic, Jump, TractionSeparation, softening};
 use fissure_particles::{Block, Spacing};
-use fissure_scene::{
-    CrackSettings, EndState, Hold, Plane, Scene, SceneError, Solver, Velocity,
-};
+use fissure_scene::{CrackSettings, EndState, Hold, Plane, Scene, SceneError, Solver, Velocity};
 use fissure_solvers::{Implicit, ImplicitSettings, QuasiStatic, QuasiStaticSettings};
 use nalgebra::{Vector3, vector};
 
@@ -122,10 +120,16 @@ fn load_unload_close_and_tear() {
         let energy = scene.energy();
         let spent = energy.dissipated / (LAW.toughness * AREA);
         let imbalance = energy.imbalance() / energy.external;
-        println!("x/h = {:.1}: {spent:.6} of G_f A, imbalance {imbalance:.2e}", x / H);
+        println!(
+            "x/h = {:.1}: {spent:.6} of G_f A, imbalance {imbalance:.2e}",
+            x / H
+        );
         assert!((spent - 1.0).abs() < 1e-3, "{spent}");
         assert!(imbalance.abs() < 5e-3, "{energy:?}");
-        assert!((energy.external / energy.dissipated - 1.0).abs() < 5e-3, "{energy:?}");
+        assert!(
+            (energy.external / energy.dissipated - 1.0).abs() < 5e-3,
+            "{energy:?}"
+        );
         assert!(energy.stored.abs() < 1e-6 * energy.dissipated, "{energy:?}");
         let points = scene.cracks()[0].bonded();
         let full = |spent: f64| (spent / LAW.toughness - 1.0).abs() < 1e-9;
@@ -149,7 +153,10 @@ fn aslant_it_follows_the_law_nearly() {
     // Of a jump along the bar: λ = w √(cos² + β² sin²), and the load is along it too.
     let effective = (1.0 + (LAW.shear_weight * slope).powi(2)).sqrt();
     let peak = peak / (LAW.strength * BROAD * THICKNESS * effective);
-    println!("aslant: areas {:.4}, energy {spent:.4}, peak {peak:.4}", nodes / area);
+    println!(
+        "aslant: areas {:.4}, energy {spent:.4}, peak {peak:.4}",
+        nodes / area
+    );
     assert!((nodes / area - 1.0).abs() < 0.04, "{nodes}");
     assert!((spent - 1.0).abs() < 0.04, "{spent}");
     assert!((peak - 1.0).abs() < 0.05, "{peak}");

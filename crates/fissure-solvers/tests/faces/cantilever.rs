@@ -6,9 +6,7 @@
 use fissure_grid::{Grid, shape};
 use fissure_materials::{Isotropic, TractionSeparation, softening};
 use fissure_particles::{Block, Spacing};
-use fissure_scene::{
-    Constant, CrackSettings, EndState, FacePoint, Hold, Plane, Scene, Solver,
-};
+use fissure_scene::{Constant, CrackSettings, EndState, FacePoint, Hold, Plane, Scene, Solver};
 use fissure_solvers::{QuasiStatic, QuasiStaticSettings};
 use nalgebra::Vector2;
 
@@ -65,7 +63,13 @@ fn scene() -> Scene<2> {
                 &Spacing(0.5 * H),
             )
             .unwrap()
-            .hold(name, &format!("{name} pad"), grip, up, Constant(sign * SPEED))
+            .hold(
+                name,
+                &format!("{name} pad"),
+                grip,
+                up,
+                Constant(sign * SPEED),
+            )
             .unwrap();
     }
     // The grips hold one another; this keeps the beam in its place.
@@ -93,7 +97,9 @@ fn turned(scene: &Scene<2>, upper: bool) -> f64 {
 /// Opening at the end of the open crack and what the law took there, by a straight line through the first two places.
 fn at_the_end(points: &[FacePoint]) -> f64 {
     let opening = |x: f64| {
-        let here = points.iter().filter(|point| (point.place.x - x).abs() < 0.1 * H);
+        let here = points
+            .iter()
+            .filter(|point| (point.place.x - x).abs() < 0.1 * H);
         let jumps: Vec<f64> = here.map(|point| point.jump.y).collect();
         jumps.iter().sum::<f64>() / jumps.len() as f64
     };
@@ -103,7 +109,12 @@ fn at_the_end(points: &[FacePoint]) -> f64 {
 #[test]
 fn a_crack_starts_when_j_is_the_toughness() {
     let mut scene = scene();
-    let grid = Grid::over([-4.0 * H, -ARM - 8.0 * H], [LENGTH + 4.0 * H, ARM + 8.0 * H], H).unwrap();
+    let grid = Grid::over(
+        [-4.0 * H, -ARM - 8.0 * H],
+        [LENGTH + 4.0 * H, ARM + 8.0 * H],
+        H,
+    )
+    .unwrap();
     let settings = QuasiStaticSettings {
         step: 0.025,
         tolerance: 1e-6,
@@ -124,7 +135,11 @@ fn a_crack_starts_when_j_is_the_toughness() {
         last = (open, j);
         assert!(scene.step() < 200, "{last:?}");
     };
-    println!("J at onset over the toughness: {:.4}, {} steps", at_onset / LAW.toughness, scene.step());
+    println!(
+        "J at onset over the toughness: {:.4}, {} steps",
+        at_onset / LAW.toughness,
+        scene.step()
+    );
     assert!((at_onset / LAW.toughness - 1.0).abs() < 0.03, "{at_onset}");
     let e = scene.energy();
     assert!((e.imbalance() / e.external).abs() < 0.01, "{e:?}");

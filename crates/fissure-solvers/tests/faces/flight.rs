@@ -74,7 +74,10 @@ fn a_restart_has_the_same_bits() {
         restarted.step(&mut again, 1.0).unwrap();
     }
     assert!(spent(&scene) > 0.5, "{}", spent(&scene));
-    assert_eq!(scene.bodies()[0].motion().velocity, again.bodies()[0].motion().velocity);
+    assert_eq!(
+        scene.bodies()[0].motion().velocity,
+        again.bodies()[0].motion().velocity
+    );
     assert_eq!(scene.cracks(), again.cracks());
     assert_eq!(scene.energy(), again.energy());
 }
