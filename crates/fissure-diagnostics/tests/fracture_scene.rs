@@ -15,8 +15,8 @@ use fissure_grid::{Grid, shape};
 use fissure_materials::{AnisotropicDamage, Isotropic, Mode, Scale, softening};
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{
-    CrackSettings, End, EnergyTotals, Hold, Plane, Report, Scene, Until, Velocity, VertexMotion,
-    grow_cracks, run,
+    CrackSettings, End, EndState, EnergyTotals, Hold, Plane, Report, Scene, Until, Velocity,
+    VertexMotion, grow_cracks, run,
 };
 use fissure_solvers::{QuasiStatic, QuasiStaticSettings};
 use fissure_tensor::{Matrix3, Sym};
@@ -192,6 +192,90 @@ fn an_inclined_crack_turns_across_the_load() {
     assert!((first + last).norm() < 1e-3 * h, "{first} {last}");
     let rise = last.y - a * sine;
     assert!(rise < 0.0 && rise > -0.2 * a, "{rise}");
+}
+
+/// From one side to the other: the tip that leaves is a mouth, and two halves are left.
+#[test]
+fn an_edge_crack_runs_through() {
+    let (width, half, h) = (0.02, 0.016, 1e-3);
+    let law = Isotropic {
+        density: 2500.0,
+        young: GLASS.young,
+        poisson: GLASS.poisson,
+    };
+    let mouth = CrackSettings {
+        first: EndState::Mouth,
+        ..CrackSettings::default()
+    };
+    let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
+    scene
+        .fill(
+            "plate",
+            law,
+            &Block::new([0.0, -half], [width, half]),
+            &Spacing(0.5 * h),
+        )
+        .unwrap()
+        .crack("edge", &[[-h, 0.3 * h], [8.2 * h, 0.3 * h]], mouth)
+        .unwrap();
+    // Pulled in the first step, held then.
+    let speed = |t: f64| if t < 1.5 { 1e-6 } else { 0.0 };
+    for (name, sign) in [("top", 1.0), ("bottom", -1.0)] {
+        let grip = move |x: &Vector2<f64>| sign * x.y > half - 0.5 * h;
+        let axes = [(Vector2::y(), sign), (Vector2::x(), 0.0)];
+        for (axis, share) in axes {
+            let moved = Velocity(move |t| share * speed(t));
+            let name = if share == 0.0 {
+                format!("{name}, along")
+            } else {
+                name.to_owned()
+            };
+            scene
+                .hold(&name, "plate", grip, Hold::Component(axis), moved)
+                .unwrap();
+        }
+    }
+    let margin = 4.0 * h;
+    let grid = Grid::over(
+        [-margin, -half - margin],
+        [width + margin, half + margin],
+        h,
+    )
+    .unwrap();
+    let settings = QuasiStaticSettings {
+        step: 1.0,
+        ..QuasiStaticSettings::default()
+    };
+    let mut solver = QuasiStatic::new(grid, shape::Linear, settings).unwrap();
+    let domain = Annulus {
+        inner: 1.5 * h,
+        outer: 4.5 * h,
+    };
+    let direction = GrowthDirection::SelfSimilar;
+    let mut criterion =
+        EnergyReleaseGrowth::new("plate", GLASS, 1e-3, domain, 1.5 * h, direction).unwrap();
+    let mut loads = Vec::new();
+    for _ in 0..20 {
+        run(&mut scene, &mut solver, Until::Steps(1), &mut []).unwrap();
+        loads.push(scene.reaction("top").unwrap().y);
+        if scene.cracks()[0].end(End::Last) == EndState::Mouth {
+            break;
+        }
+        grow_cracks(&mut scene, &mut criterion).unwrap();
+    }
+    run(&mut scene, &mut solver, Until::Steps(1), &mut []).unwrap();
+    loads.push(scene.reaction("top").unwrap().y);
+    println!("{loads:?}");
+    assert!(scene.cracks()[0].tips().next().is_none());
+    assert!(scene.cracks()[0].tip(End::Last).0.x > width);
+    assert!(
+        loads
+            .windows(2)
+            .all(|pair| pair[1] < pair[0] * (1.0 + 1e-9) + 1e-3),
+        "{loads:?}"
+    );
+    let last = loads[loads.len() - 1];
+    assert!(last.abs() < 1e-6 * loads[0], "{loads:?}");
 }
 
 #[test]

@@ -88,6 +88,12 @@ pub enum SceneError {
         /// The condition.
         name: String,
     },
+    /// No crack has this name.
+    #[error("no crack is called '{name}'")]
+    UnknownCrack {
+        /// The name asked for.
+        name: String,
+    },
     /// A crack was refused.
     #[error("crack '{crack}'")]
     Crack {
@@ -96,6 +102,15 @@ pub enum SceneError {
         /// What the crack said.
         #[source]
         source: CrackError,
+    },
+    /// The law between the faces of a crack refused its parameters.
+    #[error("the law between the faces of crack '{crack}'")]
+    Bond {
+        /// The crack.
+        crack: String,
+        /// What the law said.
+        #[source]
+        source: MaterialError,
     },
     /// An axisymmetric body reaches over the axis.
     #[error("body '{body}': a particle at radius {radius} m; permitted: > 0")]

@@ -8,17 +8,23 @@ use crate::solution::Solution;
 /// Energies of one step, J.
 ///
 /// The ledger keeps apart what is an identity from what is an approximation:
-/// `external = Δkinetic_grid + internal + contact + stabilisation` holds to round-off in an explicit step (in a quasi-static
-/// one to what equilibrium and the fresh grid of the next step leave); `internal = Δstored + dissipated`
-/// to first order in the step, if the nodes that do the work also strain the particles (with MUSL
-/// the particles' own velocities do, and a dissipative transfer shows here too);
-/// `kinetic_grid − kinetic_particles` is what the transfer between particles and grid loses.
+/// `external = Δkinetic_grid + internal + staggering + contact + stabilisation` holds to round-off in an explicit step (in a
+/// quasi-static one to what equilibrium and the fresh grid of the next step leave);
+/// `internal = Δstored + dissipated + viscous` to second order in the step; what the transfer between particles and grid
+/// loses is `kinetic_grid − kinetic_particles`, with the kinetic energy taken at the time of the stresses: velocities of an
+/// explicit step are half a step away from it (`staggering`, `half_step`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepEnergy {
     /// Work of loads, body forces and prescribed velocities.
     pub external: f64,
-    /// Work of the internal forces on the nodal displacement, positive when it is stored.
+    /// Work of the internal forces on the displacement that strains the particles, by their mean over the step; positive
+    /// when it is stored.
     pub internal: f64,
+    /// Work of the internal forces on the nodes that they accelerate, less `internal`.
+    pub staggering: f64,
+    /// Kinetic energy at the time of the stresses less that of the velocities, at the end of the step: half the power of
+    /// the internal forces times the step.
+    pub half_step: f64,
     /// Stored energy at the end of the step.
     pub stored: f64,
     /// Energy dissipated by the laws in the step.
@@ -56,9 +62,13 @@ pub struct EnergyTotals {
     pub stabilisation: f64,
     /// Kinetic energy of the particles now.
     pub kinetic: f64,
-    /// Kinetic energy lost between particles and grid, both ways.
+    /// Kinetic energy at the time of the stresses less `kinetic`.
+    pub half_step: f64,
+    /// Kinetic energy at the time of the stresses that is lost between particles and grid, both ways:
+    /// `external = kinetic + half_step + internal + contact + stabilisation + transfer_loss` of a scene that starts at rest.
     pub transfer_loss: f64,
-    /// Largest `|external − Δkinetic_grid − internal − contact − stabilisation|` of a step, over that step's largest term.
+    /// Largest `|external − Δkinetic_grid − internal − staggering − contact − stabilisation|` of a step, over that step's
+    /// largest term.
     pub worst_balance: f64,
 }
 
@@ -73,17 +83,20 @@ impl EnergyTotals {
         self.contact += step.contact;
         self.stabilisation += step.stabilisation;
         self.transfer_loss += (self.kinetic - step.kinetic_grid_start)
-            + (step.kinetic_grid_end - step.kinetic_particles);
+            + (step.kinetic_grid_end - step.kinetic_particles)
+            + (self.half_step - step.half_step + step.staggering);
         self.kinetic = step.kinetic_particles;
+        self.half_step = step.half_step;
         let gain = step.kinetic_grid_end - step.kinetic_grid_start;
         let scale = step
             .external
             .abs()
             .max(step.internal.abs())
+            .max((step.internal + step.staggering).abs())
             .max(step.kinetic_grid_end)
             .max(step.kinetic_grid_start);
         if scale > 0.0 {
-            let taken = step.internal + step.contact + step.stabilisation;
+            let taken = step.internal + step.staggering + step.contact + step.stabilisation;
             let balance = (step.external - gain - taken).abs() / scale;
             // `max` would drop a NaN.
             if !(balance <= self.worst_balance) {

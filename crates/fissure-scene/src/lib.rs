@@ -42,8 +42,8 @@ pub use body::{Body, BodyFailure, ParticleScale};
 pub use condition::{Condition, ConditionKind, Constant, Hold, Selection, TimeFunction, Velocity};
 pub use contact::{Contact, ContactLaw};
 pub use crack::{
-    CrackError, CrackLine, CrackSettings, End, EndState, Foot, Grown, Growth, GrowthCriterion,
-    GrowthError, Polyline, Side, VertexMotion, grow_cracks,
+    Bond, BondAnswer, CarriedCrack, CrackError, CrackLine, CrackSettings, End, EndState, FacePoint,
+    Foot, Grown, Growth, GrowthCriterion, GrowthError, Polyline, Side, VertexMotion, grow_cracks,
 };
 pub use error::{PersistError, SceneError, SolveError, WatchError};
 pub use every::Every;

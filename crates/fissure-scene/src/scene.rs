@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use crate::body::Body;
 use crate::condition::{Condition, ConditionKind, Selection};
 use crate::contact::Contact;
-use crate::crack::CrackLine;
+use crate::crack::{Bond, CrackLine};
 use crate::kinematics::{Kinematics, Plane};
 use crate::ledger::{EnergyTotals, Report};
 
@@ -25,6 +25,8 @@ pub struct Scene<const D: usize> {
     pub(crate) conditions: Vec<Condition<D>>,
     pub(crate) contacts: Vec<Contact>,
     pub(crate) cracks: Vec<CrackLine>,
+    /// Laws between the faces of cracks, with the number of each crack.
+    pub(crate) bonds: Vec<(usize, Bond)>,
     pub(crate) body_force: Option<BodyForce<D>>,
     pub(crate) time: f64,
     pub(crate) load_time: f64,
@@ -65,6 +67,7 @@ impl<const D: usize> Scene<D> {
             conditions: Vec::new(),
             contacts: Vec::new(),
             cracks: Vec::new(),
+            bonds: Vec::new(),
             body_force: None,
             time: 0.0,
             load_time: 0.0,

@@ -146,14 +146,16 @@ pub trait WindowKernel<const D: usize> {
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure>;
 
-    /// Takes what the law made of the run, its stresses for example, on to the nodes.
+    /// Takes what the law made of the run, its stresses for example, on to the nodes. Returns the
+    /// [`SweepTotals::work`] of the run, J.
     fn scatter(
         &mut self,
         _run: &Run,
         _constants: &RunConstants<'_>,
         _old: &MotionSlices<'_, D>,
         _new: &MotionSlices<'_, D>,
-    ) {
+    ) -> f64 {
+        0.0
     }
 
     /// Whether [`external`](Self::external) is to be asked.
@@ -210,6 +212,8 @@ pub struct SweepTotals {
     pub kinetic: f64,
     /// Square of the largest of those, m²/s².
     pub speed_squared: f64,
+    /// Work of stresses on the strains of the step, J, as the kernel has counted it.
+    pub work: f64,
 }
 
 impl SweepTotals {
@@ -222,6 +226,7 @@ impl SweepTotals {
             wave_speed: self.wave_speed.max(other.wave_speed),
             kinetic: self.kinetic + other.kinetic,
             speed_squared: self.speed_squared.max(other.speed_squared),
+            work: self.work + other.work,
         }
     }
 }

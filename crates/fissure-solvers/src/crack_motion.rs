@@ -1,7 +1,7 @@
 //! Cracks are carried by the nodes: both faces of every vertex move with the field of their side.
 
 use fissure_grid::{Grid, Shape, Stencil, shape::Linear, tile_of, window_node};
-use fissure_scene::{CrackLine, End, EndState, Scene, SolveError, VertexMotion};
+use fissure_scene::{CarriedCrack, CrackLine, End, EndState, Scene, SolveError, VertexMotion};
 use nalgebra::{SMatrix, SVector, Vector2};
 
 use crate::groups::{between, plane};
@@ -27,7 +27,7 @@ pub(crate) fn refine<const D: usize>(scene: &mut Scene<D>, grid: &Grid<D>) {
 
 /// The cracks of a scene as a step leaves them.
 pub(crate) struct CarriedCracks {
-    cracks: Vec<CrackLine>,
+    cracks: Vec<CarriedCrack>,
     /// The longest way of a vertex, m.
     farthest: f64,
 }
@@ -36,7 +36,9 @@ impl CarriedCracks {
     /// Makes them the present ones.
     pub(crate) fn accept<const D: usize>(self, scene: &mut Scene<D>, placement: &mut Placement<D>) {
         placement.note_crack_motion(self.farthest);
-        scene.cracks_mut().clone_from_slice(&self.cracks);
+        for (crack, carried) in scene.cracks_mut().iter_mut().zip(self.cracks) {
+            crack.accept(carried);
+        }
     }
 }
 
@@ -59,20 +61,21 @@ pub(crate) fn carried<const D: usize>(
         way: &way,
     };
     let mut moved = CarriedCracks {
-        cracks: scene.cracks().to_vec(),
+        cracks: Vec::with_capacity(scene.cracks().len()),
         farthest: 0.0,
     };
-    for crack in &mut moved.cracks {
+    for crack in scene.cracks() {
         let motions = faces.motions(crack);
         let ways = motions.iter().map(|motion| motion.displacement.norm());
         moved.farthest = ways.fold(moved.farthest, f64::max);
-        let carried = crack.carry(|vertex, _| motions[vertex]);
-        carried.map_err(|source| SolveError::Crack {
+        let carried = crack.carried(|vertex, _| motions[vertex]);
+        let carried = carried.map_err(|source| SolveError::Crack {
             crack: crack.name().to_owned(),
             source,
             step: scene.step() + 1,
             time: scene.time(),
         })?;
+        moved.cracks.push(carried);
     }
     Ok(moved)
 }

@@ -7,6 +7,7 @@
 //! between; `transfers` sums particles to nodes without it.
 
 mod band;
+mod bonds;
 mod checks;
 mod constraints;
 mod crack_motion;

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use fissure::diagnostics::{EnergyBalance, state_hash};
-use fissure::io::plot::ScatterPlot;
+use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::prelude::*;
 
 use fissure_study::{
@@ -50,6 +50,31 @@ pub struct Outcome {
     pub values: Measures,
     /// What to colour the first body's particles by in a picture: label and values.
     pub field: Option<(&'static str, Vec<f64>)>,
+    /// A history and its exact one, to draw.
+    pub history: Option<History>,
+}
+
+/// Samples of a run over another number, and what they should be.
+pub struct History {
+    /// Of the axis along.
+    pub x_label: &'static str,
+    /// Of the axis up.
+    pub y_label: &'static str,
+    /// Place, found and exact.
+    pub samples: Vec<[f64; 3]>,
+}
+
+impl History {
+    fn save(&self, title: &str, path: &std::path::Path) -> Result<(), StudyError> {
+        let column = |k: usize| self.samples.iter().map(|s| s[k]).collect::<Vec<_>>();
+        LinePlot::new(title)
+            .x_label(self.x_label)
+            .y_label(self.y_label)
+            .series("found", column(0), column(1), Style::Line)
+            .series("exact", column(0), column(2), Style::Dashed)
+            .save(path)
+            .map_err(StudyError::failed("drawing the history"))
+    }
 }
 
 impl Outcome {
@@ -61,6 +86,7 @@ impl Outcome {
             errors: Measures::new(),
             values: Measures::new(),
             field: None,
+            history: None,
         }
     }
 }
@@ -159,7 +185,7 @@ impl<P: Problem> Study for Verification<P> {
         let mut series = SeriesSet::new(self.0.name());
         let mut over_h = ErrorChart::new("Error against spacing", "h [m]", leading);
         let mut over_time = ErrorChart::new("Error against run time", "wall time [s]", leading);
-        let mut finest = f64::INFINITY;
+        let (mut finest, mut finest_history) = (f64::INFINITY, f64::INFINITY);
         for (number, case) in cases.iter().enumerate() {
             let (at, count) = (number + 1, cases.len());
             rows.progress(&format!("{at} of {count}: {}", case.label()));
@@ -188,6 +214,12 @@ impl<P: Problem> Study for Verification<P> {
                     .particle_size(0.5 * row.h)
                     .save(folder.join("field.png"))
                     .map_err(StudyError::failed("drawing the field"))?;
+            }
+            if let (Some(folder), Some(history), true) =
+                (rows.out_dir(), &outcome.history, row.h < finest_history)
+            {
+                finest_history = row.h;
+                history.save(self.0.name(), &folder.join("history.png"))?;
             }
             rows.row(row)?;
         }

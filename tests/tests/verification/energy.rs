@@ -1,7 +1,8 @@
 //! D5. The ledger of a vibrating block.
 //!
 //! External work = change of the grid's kinetic energy + internal work: to round-off.
-//! Internal work = stored + dissipated: to first order in the step.
+//! Internal work = stored + dissipated: to second order in the step.
+//! External work = kinetic energy at the time of the stresses + internal work + what the transfer loses: to round-off.
 //! What particles hold in all: never more than at the start, but for a part that falls with the
 //! step.
 

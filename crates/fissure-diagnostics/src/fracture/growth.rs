@@ -55,9 +55,9 @@ fn room(scene: &Scene<2>, crack: usize, tip: &TipFrame) -> f64 {
 ///
 /// J is taken over a domain around the tip ([`j_integral`]). If another crack is nearer than its
 /// outer radius the domain shrinks with the distance, and if the body does not fill it, it is
-/// halved, both down to a quarter. A tip as near as that to a surface stays where it is. One as near
-/// as that to another crack goes straight on if it grew when it was last asked: what is left between
-/// the two is released at a rate that only rises, and they meet.
+/// halved, both down to a quarter. A tip as near as that to a surface or to another crack goes straight
+/// on if it grew when it was last asked: what is left between them is released at a rate that only
+/// rises. Else it stays where it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyReleaseGrowth {
     /// Name of the body that cracks.
@@ -197,7 +197,7 @@ impl GrowthCriterion for EnergyReleaseGrowth {
             (Some((j, _)), _) if !(j >= self.toughness) => return Ok(None),
             (Some((_, k)), GrowthDirection::MaximumHoop) => hoop_angle(&k),
             (Some(_), GrowthDirection::SelfSimilar) => 0.0,
-            (None, _) if ran && room(scene, crack, &tip) < LEAST * self.domain.outer => 0.0,
+            (None, _) if ran => 0.0,
             (None, _) => return Ok(None),
         };
         self.running.push((crack, end));

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use thiserror::Error;
 
 use super::{CrackError, End, EndState};
-use crate::Scene;
+use crate::{Body, Scene};
 
 /// Where a tip goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +74,7 @@ pub struct Grown {
 
 impl Scene<2> {
     /// Lets a tip grow straight to a new place, m. If another crack is in the way, the tip stops on
-    /// it and is arrested.
+    /// it and is arrested. A tip that leaves the bodies so is a mouth from then on.
     ///
     /// # Errors
     /// [`CrackError::Unknown`] and what [`CrackLine::grow`](crate::CrackLine::grow) refuses.
@@ -101,9 +101,13 @@ impl Scene<2> {
             }
         }
         let tip = obstacle.map_or(to, |(_, place)| place);
+        let leaves = self.is_inside(&from) && !self.is_inside(&tip);
         let growing = &mut self.cracks[crack];
         growing.grow(end, tip)?;
         let arrested_by = obstacle.map(|(by, _)| by);
+        if leaves {
+            growing.set_end(end, EndState::Mouth);
+        }
         if let Some(by) = arrested_by {
             growing.set_end(end, EndState::Arrested { by });
         }
@@ -114,6 +118,20 @@ impl Scene<2> {
             tip,
             length: (tip - from).norm(),
             arrested_by,
+        })
+    }
+
+    /// Whether a place lies in a particle of a body, or as near to one as the particles' own size.
+    fn is_inside(&self, x: &Vector2<f64>) -> bool {
+        self.bodies.iter().any(|body| {
+            let motion = body.motion();
+            let edges = motion.deformation_gradient.iter();
+            let mut particles = motion.position.iter().zip(edges);
+            particles.any(|(centre, f)| {
+                let edges = Body::<2>::in_space(f) * body.half_edges();
+                let from_centre = edges.try_inverse().map(|inverse| inverse * (x - centre));
+                from_centre.is_some_and(|r| r.amax() <= 2.0)
+            })
         })
     }
 }

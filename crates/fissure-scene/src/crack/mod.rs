@@ -11,6 +11,7 @@
 //! predicate, crate `robust`), and a point exactly on a line counts as on its plus side: answers
 //! are consistent at vertices and for collinear points, and the same on every machine.
 
+mod bond;
 mod building;
 mod error;
 mod growth;
@@ -18,7 +19,8 @@ mod polyline;
 mod predicates;
 mod surface;
 
+pub use bond::{Bond, BondAnswer, FacePoint};
 pub use error::CrackError;
 pub use growth::{Grown, Growth, GrowthCriterion, GrowthError, grow_cracks};
 pub use polyline::{Foot, Polyline, Side};
-pub use surface::{CrackLine, CrackSettings, End, EndState, VertexMotion};
+pub use surface::{CarriedCrack, CrackLine, CrackSettings, End, EndState, VertexMotion};

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::{CrackError, Polyline, Side};
+use super::{CrackError, FacePoint, Polyline, Side};
 use crate::contact::ContactLaw;
 
 /// One of the two ends of a crack.
@@ -62,6 +62,13 @@ pub struct VertexMotion {
     pub jump: Vector2<f64>,
 }
 
+/// Where a step leaves a crack.
+#[derive(Clone, Debug)]
+pub struct CarriedCrack {
+    line: Polyline,
+    jump: Vec<Vector2<f64>>,
+}
+
 /// A crack in a plane scene: in plane strain and stress it goes through the thickness, in
 /// axisymmetry it is the surface that its line sweeps about the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,6 +79,7 @@ pub struct CrackLine {
     jump: Vec<Vector2<f64>>,
     ends: [EndState; 2],
     contact: ContactLaw,
+    bonded: Vec<FacePoint>,
 }
 
 impl CrackLine {
@@ -93,6 +101,7 @@ impl CrackLine {
             placed,
             ends: [settings.first, settings.last],
             contact: settings.contact,
+            bonded: Vec::new(),
         })
     }
 
@@ -190,6 +199,23 @@ impl CrackLine {
         (foot.normal, self.jump[i] * (1.0 - t) + self.jump[i + 1] * t)
     }
 
+    /// Where the place of the crack that is nearest to `x` was put, m.
+    pub fn placed_at(&self, x: &Vector2<f64>) -> Vector2<f64> {
+        let foot = self.line.foot(x);
+        let (i, t) = (foot.segment, foot.fraction);
+        self.placed[i] * (1.0 - t) + self.placed[i + 1] * t
+    }
+
+    /// What the law between its faces remembers, as the last step left it.
+    pub fn bonded(&self) -> &[FacePoint] {
+        &self.bonded
+    }
+
+    /// Puts down what the law between its faces remembers. For solvers.
+    pub fn set_bonded(&mut self, points: Vec<FacePoint>) {
+        self.bonded = points;
+    }
+
     /// Divides segments longer than `longest` (m) into equal pieces. For solvers, whose nodes see more
     /// of the faces than the vertices a user needs.
     pub fn refine(&mut self, longest: f64) {
@@ -225,8 +251,19 @@ impl CrackLine {
     /// [`CrackError::NotFinite`] or [`CrackError::NoLength`]; the crack is then as it was.
     pub fn carry(
         &mut self,
-        mut motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
+        motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
     ) -> Result<(), CrackError> {
+        self.carried(motion).map(|carried| self.accept(carried))
+    }
+
+    /// What [`carry`](Self::carry) would make of it, to [`accept`](Self::accept) when all else has succeeded.
+    ///
+    /// # Errors
+    /// As of [`carry`](Self::carry).
+    pub fn carried(
+        &self,
+        mut motion: impl FnMut(usize, &Vector2<f64>) -> VertexMotion,
+    ) -> Result<CarriedCrack, CrackError> {
         let mut jump = self.jump.clone();
         let line = self.line.carried(|(i, x)| {
             let moved = motion(i, x);
@@ -237,8 +274,12 @@ impl CrackLine {
         if let Some(vertex) = jump.iter().position(|j| !finite(j)) {
             return Err(CrackError::NotFinite { vertex });
         }
-        (self.line, self.jump) = (line, jump);
-        Ok(())
+        Ok(CarriedCrack { line, jump })
+    }
+
+    /// Takes the place and the jumps that [`carried`](Self::carried) has found for it.
+    pub fn accept(&mut self, carried: CarriedCrack) {
+        (self.line, self.jump) = (carried.line, carried.jump);
     }
 
     /// Lets a tip grow straight to a new place, m. Other cracks are not asked:

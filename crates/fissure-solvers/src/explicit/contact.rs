@@ -8,7 +8,7 @@
 //! A step may close the gap and no more: the relative normal velocity after it is at least `−max(g, 0)/Δt`. The impulse
 //! this takes is limited from below by zero, the tangential one by friction times it. Fields without a contact between
 //! them get a common velocity, as if they were one. Nodes that the tip of a crack is passing are held by a spring besides
-//! (`release`), the force of which is that of the end of the step. Three and more fields at a node are treated pair by pair with
+//! (`release`), the force of which is that of the end of the step; so is that of a law between faces (`bonds`). Three and more fields at a node are treated pair by pair with
 //! impulses that add up (projected Gauss-Seidel).
 
 mod plane;
@@ -21,6 +21,7 @@ use rayon::prelude::*;
 
 use self::plane::normal_between;
 use self::surface::Surface;
+use crate::bonds::{Glue, GlueTotals, areas};
 use crate::checks::outside;
 use crate::crack_motion::faces;
 use crate::groups::Label;
@@ -53,6 +54,8 @@ struct Meeting<const D: usize> {
     gap: f64,
     /// Between the faces of a crack near its tip; its jump is of the second field.
     tie: Tie<D>,
+    /// The law between the faces, by its place among those of the step.
+    glue: Option<usize>,
 }
 
 /// How two fields touch.
@@ -92,10 +95,18 @@ pub(crate) struct Meetings<const D: usize> {
     meetings: Vec<Meeting<D>>,
     /// Where the meetings of each split node begin, and the end.
     starts: Vec<u32>,
+    /// Laws between faces.
+    glues: Vec<Glue<D>>,
 }
 
-/// Impulses on the second field of every meeting, kg·m/s.
-pub(crate) type Impulses<const D: usize> = Vec<SVector<f64, D>>;
+/// Impulses on the second fields of meetings, kg·m/s.
+#[derive(Clone, Debug)]
+pub(crate) struct Impulses<const D: usize> {
+    /// Of every meeting.
+    all: Vec<SVector<f64, D>>,
+    /// What of it is of the law between the faces, where there is one.
+    glued: Vec<SVector<f64, D>>,
+}
 
 impl<const D: usize> Meetings<D> {
     /// Finds the meetings, with normals and gaps at the start of a step in which nothing moves by
@@ -112,11 +123,13 @@ impl<const D: usize> Meetings<D> {
     ) -> Result<(), SolveError> {
         self.meetings.clear();
         self.starts.clear();
+        self.glues.clear();
         let splits = &transfers.placement.splits;
         if splits.copies.is_empty() {
             return Ok(());
         }
         let off_grid = |(body, index)| outside(scene, body, index);
+        let areas = areas(transfers, scene).map_err(off_grid)?;
         let surface = Surface { transfers, scene };
         // Faces of cracks know their normals and gaps: particles are asked only where bodies may touch.
         let bounds = match scene.contacts() {
@@ -135,6 +148,7 @@ impl<const D: usize> Meetings<D> {
                     normal: SVector::zeros(),
                     gap: 0.0,
                     tie: Tie::free(),
+                    glue: None,
                 };
                 match law.map(|law| law.between) {
                     None => {}
@@ -143,9 +157,16 @@ impl<const D: usize> Meetings<D> {
                         let x = transfers.placement.node_position(grid, meeting.nodes[0]);
                         (meeting.normal, meeting.gap) = faces(&scene.cracks()[crack], in_order, &x);
                         meeting.tie = release.tie(scene, grid, crack, &x);
+                        let mut sides = meeting.nodes;
                         if !in_order {
                             meeting.tie.jump *= -1.0;
+                            sides.swap(0, 1);
                         }
+                        let glue = Glue::at(scene, crack, &x, sides, &areas, grid.spacing());
+                        meeting.glue = glue.map(|glue| {
+                            self.glues.push(glue);
+                            self.glues.len() - 1
+                        });
                     }
                     Some(Between::Bodies(..)) => {
                         // The box of a field without particles is near none.
@@ -205,13 +226,16 @@ impl<const D: usize> Meetings<D> {
         gap: Gap<'_>,
         ties: bool,
     ) -> Impulses<D> {
-        let mut impulses = vec![SVector::zeros(); self.meetings.len()];
+        let mut impulses = Impulses {
+            all: vec![SVector::zeros(); self.meetings.len()],
+            glued: vec![SVector::zeros(); self.glues.len()],
+        };
         for pair in self.starts.windows(2) {
             let here = pair[0] as usize..pair[1] as usize;
             let rounds = if here.len() > 1 { ROUNDS } else { 1 };
             for _ in 0..rounds {
                 for k in here.clone() {
-                    self.part_pair(k, sums, field, dt, (gap, ties), &mut impulses[k]);
+                    self.part_pair(k, sums, field, dt, (gap, ties), &mut impulses);
                 }
             }
         }
@@ -225,9 +249,10 @@ impl<const D: usize> Meetings<D> {
         field: &mut Field,
         dt: f64,
         (gap, ties): (Gap<'_>, bool),
-        impulse: &mut SVector<f64, D>,
+        impulses: &mut Impulses<D>,
     ) {
         let meeting = &self.meetings[k];
+        let impulse = impulses.all[k];
         let [a, b] = meeting.nodes;
         let (mass_a, mass_b) = (sums.mass(a), sums.mass(b));
         if !(mass_a > 0.0 && mass_b > 0.0) {
@@ -241,12 +266,21 @@ impl<const D: usize> Meetings<D> {
                 Gap::Start => meeting.gap,
                 Gap::End(moved) => meeting.gap + dt * jump(moved).dot(normal),
             };
-            let free = jump(field) - *impulse / reduced;
-            let spring = if ties && meeting.tie.stiffness > 0.0 {
+            let free = jump(field) - impulse / reduced;
+            let mut spring = if ties && meeting.tie.stiffness > 0.0 {
                 meeting.tie.impulse(&free, reduced, dt)
             } else {
                 SVector::zeros()
             };
+            if ties && let Some(place) = meeting.glue {
+                let glue = &self.glues[place];
+                let sign = meeting.faces().map_or(1.0, |(_, sign)| sign);
+                let tie = &meeting.tie;
+                let found = glue.impulse(&(free * sign), (tie, sign), reduced, dt);
+                spring = found.tie * sign;
+                impulses.glued[place] = found.glue * sign;
+                spring += impulses.glued[place];
+            }
             let relative = free + spring / reduced;
             let closing = relative.dot(normal);
             let push = -reduced * (closing + gap.max(0.0) / dt);
@@ -261,26 +295,50 @@ impl<const D: usize> Meetings<D> {
             };
             spring + normal * push + held
         } else {
-            *impulse - jump(field) * reduced
+            impulse - jump(field) * reduced
         };
-        let change = wanted - *impulse;
-        *impulse = wanted;
+        let change = wanted - impulse;
+        impulses.all[k] = wanted;
         for (node, velocity) in [(a, -change / mass_a), (b, change / mass_b)] {
             let massive = field[node][MASSIVE] > 0.0;
             field[node] = element(&(vector(&field[node]) + velocity), massive);
         }
     }
 
-    /// Energy that the impulses took, J, if `end` are the velocities of the nodes after all.
-    pub(crate) fn energy(&self, sums: &NodeSums<D>, end: &Field, impulses: &Impulses<D>) -> f64 {
+    /// Energy that the impulses took, J, if `end` are the velocities of the nodes after all: of contact and springs, and of
+    /// the laws between faces.
+    pub(crate) fn energy(
+        &self,
+        sums: &NodeSums<D>,
+        end: &Field,
+        impulses: &Impulses<D>,
+    ) -> [f64; 2] {
         let mean = |node: usize| (sums.velocity(node) + vector(&end[node])) * 0.5;
-        let pairs = self.meetings.iter().zip(impulses);
-        pairs
-            .map(|(meeting, impulse)| {
-                let [a, b] = meeting.nodes;
-                impulse.dot(&(mean(a) - mean(b)))
-            })
-            .sum()
+        let mut taken = [0.0; 2];
+        for (meeting, impulse) in self.meetings.iter().zip(&impulses.all) {
+            let [a, b] = meeting.nodes;
+            let way: SVector<f64, D> = mean(a) - mean(b);
+            let glued = meeting.glue.map_or(0.0, |k| impulses.glued[k].dot(&way));
+            taken[0] += impulse.dot(&way) - glued;
+            taken[1] += glued;
+        }
+        taken
+    }
+
+    /// What the laws between faces make of a step that strains with these velocities.
+    pub(crate) fn glued(&self, straining: &Field, dt: f64) -> GlueTotals {
+        let mut totals = GlueTotals::default();
+        for meeting in &self.meetings {
+            let (Some(place), Some((crack, sign))) = (meeting.glue, meeting.faces()) else {
+                continue;
+            };
+            let [a, b] = meeting.nodes;
+            let way = (vector::<D>(&straining[b]) - vector(&straining[a])) * (dt * sign);
+            if let Some(step) = self.glues[place].after(&way) {
+                totals.add(crack, step);
+            }
+        }
+        totals
     }
 
     /// Jumps of the nodes that are held by springs after a step that strains with these velocities: crack, place (m), and how far the
@@ -308,7 +366,7 @@ impl<const D: usize> Meetings<D> {
         dt: f64,
     ) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); scene.contacts().len()];
-        for (meeting, impulse) in self.meetings.iter().zip(impulses) {
+        for (meeting, impulse) in self.meetings.iter().zip(&impulses.all) {
             if let Some(Between::Bodies(contact, in_order)) = meeting.law.map(|law| law.between) {
                 let sign = if in_order { 1.0 } else { -1.0 };
                 forces[contact] += impulse * (sign / dt);

@@ -19,6 +19,8 @@ pub(crate) struct Nodes {
     pub carried: Field,
     /// What strains the particles, where that is not `end`.
     pub straining: Field,
+    /// Internal forces that accelerated the nodes, N, where they are asked for after the sums are made anew.
+    pub forces: Field,
 }
 
 /// What the nodes are given to move by.
@@ -66,7 +68,9 @@ impl<const D: usize> NodeForces<'_, D> {
             }
         }
         self.book_energy(&nodes.end, &mut energy);
-        energy.contact = self.meetings.energy(sums, &nodes.end, &impulses);
+        let [contact, glued] = self.meetings.energy(sums, &nodes.end, &impulses);
+        energy.contact = contact;
+        energy.internal += glued;
         if gains {
             nodes.carried.resize(sums.len(), Default::default());
             let end = &nodes.end;
@@ -121,7 +125,7 @@ impl<const D: usize> NodeForces<'_, D> {
 }
 
 /// Nodes that a thread works on at a time.
-const CHUNK: usize = 2048;
+pub(super) const CHUNK: usize = 2048;
 
 /// Calls `work` with the number and the element of every node.
 pub(crate) fn each_node<T: Send>(elements: &mut [T], work: impl Fn(usize, &mut T) + Sync) {

@@ -6,6 +6,7 @@ use fissure_grid::simd::{EIGHT, Lanes, SimdTask};
 use fissure_grid::{FIELD, Gathered, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
+use fissure_tensor::Sym;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::settings::Transfer;
@@ -87,6 +88,8 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             field: field.as_flattened(),
             carried: carried.as_ref().map(|values| values.as_flattened()),
             sums: &mut sums.0,
+            strains: [Strain::default(); Run::MAX],
+            work: 0.0,
         });
         nodes.add(&sums.0, self.sums);
         done
@@ -104,6 +107,43 @@ struct Tile<'a, S, const D: usize> {
     field: &'a [f64],
     carried: Option<&'a [f64]>,
     sums: &'a mut [[f64; SUMS]],
+    /// Of the rows of the run at work, where their new stresses are to do work on them.
+    strains: [Strain<D>; Run::MAX],
+    /// Work on these strains, J: with the stress first that of the old stresses, else that of the new ones.
+    work: f64,
+}
+
+/// Velocity gradient times the length of the step.
+#[derive(Clone, Copy)]
+struct Strain<const D: usize> {
+    /// Columns, with a fourth number that is not used.
+    columns: [[f64; FIELD]; D],
+    /// Around the axis.
+    hoop: f64,
+}
+
+impl<const D: usize> Default for Strain<D> {
+    fn default() -> Self {
+        Self {
+            columns: [[0.0; FIELD]; D],
+            hoop: 0.0,
+        }
+    }
+}
+
+impl<const D: usize> Strain<D> {
+    /// Work of a stress per present volume, J/m³.
+    #[inline(always)]
+    fn work(&self, stress: &Sym) -> f64 {
+        let full = stress.to_matrix();
+        let mut work = full.m33 * self.hoop;
+        for j in 0..D {
+            for i in 0..D {
+                work += full[(i, j)] * self.columns[j][i];
+            }
+        }
+        work
+    }
 }
 
 impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
@@ -149,10 +189,10 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         constants: &RunConstants<'_>,
         old: &MotionSlices<'_, D>,
         new: &MotionSlices<'_, D>,
-    ) {
+    ) -> f64 {
         if self.pass.giving == Giving::MomentumBack {
             // Given while its weights were at hand.
-            return;
+            return 0.0;
         }
         let simd = self.pass.transfers.simd;
         if self.pass.is_affine() {
@@ -170,6 +210,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
                 new,
             });
         }
+        std::mem::take(&mut self.work)
     }
 }
 
@@ -238,8 +279,23 @@ impl<
                     }
                 }
                 if STRAINS {
-                    let (x, f) = (&old.position[row], &old.deformation_gradient[row]);
-                    new.deformation_gradient[row] = pass.strained(lanes, &gathered, x, f);
+                    let f = &old.deformation_gradient[row];
+                    let change = scaled(lanes, &gradient(lanes, &gathered), pass.dt);
+                    let hoop = pass.hoop(lanes, &gathered, &old.position[row]);
+                    let mut strain = Strain {
+                        columns: [[0.0; FIELD]; D],
+                        hoop,
+                    };
+                    for j in 0..D {
+                        strain.columns[j] = lanes.store4(change[j]);
+                    }
+                    if pass.backward {
+                        let volume = constants.volume[row] * f.determinant();
+                        tile.work += volume * strain.work(&old.stress[row]);
+                    } else {
+                        tile.strains[row] = strain;
+                    }
+                    new.deformation_gradient[row] = pass.strained(lanes, change, hoop, f);
                 }
                 if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
                     let affine = if MOMENT || GRADIENT {
@@ -289,6 +345,7 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
         // Straining alone leaves the velocities of the trial as they were.
         let velocity = if back { old } else { new };
         let forces = pass.giving != Giving::MomentumOn;
+        let works = pass.giving == Giving::AllOn;
         for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
             let (x, f) = (
@@ -314,6 +371,9 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
                         constants.volume[row] * new.deformation_gradient[row].determinant();
                     let (stress, x) = (&new.stress[row], &place.position[row]);
                     add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
+                    if works {
+                        tile.work += volume * tile.strains[row].work(stress);
+                    }
                 }
                 if forces || AFFINE {
                     stencils.scatter::<L, true>(lanes, row - first, &gift, tile.sums);
@@ -385,11 +445,10 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     fn strained<L: Lanes>(
         &self,
         lanes: L,
-        gathered: &Gathered<L::Four, D>,
-        x: &SVector<f64, D>,
+        mut change: [L::Four; D],
+        hoop: f64,
         f_old: &Matrix3<f64>,
     ) -> Matrix3<f64> {
-        let mut change = scaled(lanes, &gradient(lanes, gathered), self.dt);
         if self.backward {
             let one = SMatrix::<f64, D, D>::identity();
             if let Some(inverse) = (one - matrix(lanes, &change)).try_inverse() {
@@ -409,15 +468,28 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             }
         }
         if self.transfers.kinematics == Kinematics::Axisymmetric {
-            let radial = lanes.store4(gathered.value)[0];
-            let hoop = 1.0 + self.dt * radial / x[0];
             f.m33 *= if self.backward {
-                1.0 / (2.0 - hoop)
+                1.0 / (1.0 - hoop)
             } else {
-                hoop
+                1.0 + hoop
             };
         }
         f
+    }
+
+    /// Strain around the axis in the step.
+    #[inline(always)]
+    fn hoop<L: Lanes>(
+        &self,
+        lanes: L,
+        gathered: &Gathered<L::Four, D>,
+        x: &SVector<f64, D>,
+    ) -> f64 {
+        if self.transfers.kinematics == Kinematics::Axisymmetric {
+            self.dt * lanes.store4(gathered.value)[0] / x[0]
+        } else {
+            0.0
+        }
     }
 }
 

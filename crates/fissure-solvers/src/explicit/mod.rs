@@ -4,6 +4,7 @@
 //! particles take the motion back; the law gives the new stress. When the stress is updated
 //! relative to the forces is the [`StressUpdate`]; how velocities travel is the [`Transfer`].
 
+mod booking;
 mod contact;
 mod filter;
 mod grid_update;

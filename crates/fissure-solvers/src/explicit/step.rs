@@ -6,6 +6,7 @@ use fissure_grid::{Grid, Shape};
 use fissure_scene::{Body, Report, Scene, SolveError, Solver, StepEnergy, SweepTotals};
 use rayon::prelude::*;
 
+use super::booking::Booking;
 use super::contact::{Gap, Meetings};
 use super::grid_update::Nodes;
 use super::kernels::Giving;
@@ -219,6 +220,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             phases.meetings.bond(sums);
         }
         let mut report = phases.move_nodes(scene, sums, nodes)?;
+        let mut booking = Booking::accelerated(stress_update, sums, nodes, &totals, dt);
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
         let light = LIGHT * phases.mean_particle_mass;
         let cracks = carried(scene, grid, placement, |node| {
@@ -254,6 +256,9 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                 totals = phases.sweep(scene, sums, pass)?;
             }
         }
+        if stress_update != StressUpdate::First {
+            booking.strained::<D>(stress_update, nodes, &totals, dt);
+        }
 
         // Everything succeeded: the trial becomes the present.
         let place = |node| placement.node_position(grid, node);
@@ -263,7 +268,10 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             StressUpdate::First | StressUpdate::Musl => &nodes.straining,
         };
         release.keep(grid, meetings.tied(place, straining, dt));
+        let mut glued = meetings.glued(straining, dt);
+        let internal = booking.internal + glued.work;
         cracks.accept(scene, placement);
+        glued.keep(scene);
         for body in scene.bodies_mut() {
             body.commit()?;
         }
@@ -275,8 +283,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         };
         self.fastest = Some(totals.wave_speed + fastest);
         report.energy = StepEnergy {
-            stored: totals.stored,
-            dissipated: totals.dissipated,
+            internal,
+            staggering: report.energy.internal - internal,
+            half_step: booking.half_step,
+            stored: totals.stored + glued.stored,
+            dissipated: totals.dissipated + glued.dissipated,
             viscous: totals.viscous,
             kinetic_particles: kinetic,
             ..report.energy

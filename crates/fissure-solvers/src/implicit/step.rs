@@ -95,6 +95,11 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
                     what: "contact between bodies in an implicit step",
                 });
             }
+            if scene.has_bonds() {
+                return Err(SolveError::Unsupported {
+                    what: "a law between the faces of a crack in an implicit step",
+                });
+            }
             // Before the particles are sorted: recalled accelerations are in their present order.
             self.carried.align(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;

@@ -42,7 +42,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.constraints
             .collect(scene, grid, shape, &self.placement, load_time)?;
         self.release.look(scene);
-        self.faces.find(&transfers, scene, &self.release);
+        self.faces
+            .find(&transfers, scene, &self.release)
+            .map_err(|failed| off_grid(scene, failed))?;
         self.system.links.joined = self.faces.joined();
         self.system
             .find(&transfers, scene, &self.constraints)

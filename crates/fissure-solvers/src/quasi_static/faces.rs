@@ -8,7 +8,8 @@
 //! t = −κ (w − (n·w) n), of a length of at most μ p,         t                                        (1)
 //! ```
 //!
-//! and the spring of `release` near a tip; the minus field the opposite. `κ` is a penalty of [`FIRM`] times what a node
+//! and the spring of `release` near a tip and the law between the faces, where there is one (`bonds`); the minus field the
+//! opposite. `κ` is a penalty of [`FIRM`] times what a node
 //! resists of itself, so faces overlap by that much less than they would. Sticking faces slip by as little in a step, so
 //! that no force has to be remembered: what holds them is found anew, by equilibrium. The derivative leaves out how
 //! friction follows the pressure, so that the matrix stays symmetric; which faces touch and which slide settles within
@@ -19,6 +20,7 @@ use fissure_grid::Shape;
 use fissure_scene::Scene;
 use nalgebra::{SMatrix, SVector};
 
+use crate::bonds::{Glue, GlueTotals, areas};
 use crate::crack_motion::faces;
 use crate::equilibrium::links::Links;
 use crate::equilibrium::system::Spring;
@@ -47,6 +49,7 @@ struct Pair<const D: usize> {
     /// N/m.
     penalty: f64,
     tie: Tie<D>,
+    glue: Option<Glue<D>>,
     state: State<D>,
     /// Whether particles reach both nodes.
     active: bool,
@@ -73,16 +76,20 @@ pub(super) struct Faces<const D: usize> {
 
 impl<const D: usize> Faces<D> {
     /// Finds the pairs of a step.
+    ///
+    /// # Errors
+    /// Body and index of a particle off the grid.
     pub(super) fn find<S: Shape<D>>(
         &mut self,
         transfers: &Transfers<'_, S, D>,
         scene: &Scene<D>,
         release: &Release<D>,
-    ) {
+    ) -> Result<(), (usize, usize)> {
         self.pairs.clear();
         if scene.cracks().is_empty() {
-            return;
+            return Ok(());
         }
+        let areas = areas(transfers, scene)?;
         let (placement, grid) = (transfers.placement, transfers.grid);
         let splits = &placement.splits;
         for here in splits.nodes() {
@@ -108,6 +115,7 @@ impl<const D: usize> Faces<D> {
                         friction: line.contact().friction(),
                         penalty: FIRM * release.stiffness(crack),
                         tie: release.tie(scene, grid, crack, &place),
+                        glue: Glue::at(scene, crack, &place, nodes, &areas, grid.spacing()),
                         state: State::Open,
                         active: false,
                         changes: 0,
@@ -115,6 +123,7 @@ impl<const D: usize> Faces<D> {
                 }
             }
         }
+        Ok(())
     }
 
     /// The nodes that are joined.
@@ -142,7 +151,12 @@ impl<const D: usize> Faces<D> {
             };
             pair.active = true;
             let before = pair.state;
-            let (force, stiffness) = pair.answer(displacement);
+            let (mut force, mut stiffness) = pair.answer(displacement);
+            if let Some(glue) = &pair.glue {
+                let (pull, resists) = glue.force(&pair.way(displacement));
+                force += pull;
+                stiffness += resists;
+            }
             if before != pair.state {
                 self.changed = true;
                 pair.changes = pair.changes.saturating_add(1);
@@ -156,7 +170,7 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// Work that a step took from the bodies, J: mean of the springs' forces at its start and end, those of contact at its
+    /// Work that springs and contact took from the bodies in a step, J: mean of the springs' forces at its start and end, those of contact at its
     /// end, times the way.
     pub(super) fn work(&mut self, displacement: &[SVector<f64, D>]) -> f64 {
         let mut sum = 0.0;
@@ -168,6 +182,18 @@ impl<const D: usize> Faces<D> {
                 .dot(&way);
         }
         sum
+    }
+
+    /// What the laws between the faces make of a step.
+    pub(super) fn glued(&self, displacement: &[SVector<f64, D>]) -> GlueTotals {
+        let mut totals = GlueTotals::default();
+        for pair in self.pairs.iter().filter(|pair| pair.active) {
+            let glue = pair.glue.as_ref();
+            if let Some(step) = glue.and_then(|glue| glue.after(&pair.way(displacement))) {
+                totals.add(pair.crack, step);
+            }
+        }
+        totals
     }
 
     /// Jumps of the pairs that are held by springs: crack, place (m), and how far the plus field is from the minus one

@@ -197,7 +197,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let cracks = carried(scene, grid, placement, |node| {
             system.links.number(node).map(|_| (1.0, displacement[node]))
         })?;
+        let mut glued = self.faces.glued(displacement);
         cracks.accept(scene, placement);
+        glued.keep(scene);
         for body in scene.bodies_mut() {
             body.commit()?;
         }
@@ -207,7 +209,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let load_step = equilibrium.load_step;
         self.load_rate = load_step / dt;
         self.last_control = control;
-        self.dissipated_before = equilibrium.totals.dissipated > 0.0;
+        self.dissipated_before = equilibrium.totals.dissipated + glued.dissipated > 0.0;
         if self.arc_length == 0.0 {
             self.arc_length = equilibrium.length * self.settings.step / dt;
         }
@@ -228,9 +230,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             dt,
             energy: StepEnergy {
                 external,
-                internal: equilibrium.internal_work,
-                stored: equilibrium.totals.stored,
-                dissipated: equilibrium.totals.dissipated,
+                internal: equilibrium.internal_work + glued.work,
+                stored: equilibrium.totals.stored + glued.stored,
+                dissipated: equilibrium.totals.dissipated + glued.dissipated,
                 contact: equilibrium.contact_work,
                 stabilisation: equilibrium.stabilising_work,
                 ..StepEnergy::default()

@@ -7,6 +7,9 @@ use fissure_study::Parameters;
 
 use super::{ARM, BODY, CRACK, ELASTIC, Plate, STEEL, STRESS};
 
+/// Of the plates with an upright load and a crack across it, m: of `centre` half of it.
+const WIDTH: f64 = 2.0 * CRACK;
+
 pub(super) fn plate(
     case: &Parameters,
     h: f64,
@@ -21,6 +24,8 @@ pub(super) fn plate(
             Ok(closed(a, angle, case.number("friction")?, h, load)?)
         }
         "cantilever" => Ok(cantilever(a, h, load)?),
+        "centre-square" => Ok(square_of_nafems(true, h, load)?),
+        "edge-square" => Ok(square_of_nafems(false, h, load)?),
         other => Ok(upright(other == "centre", a, h, load)?),
     }
 }
@@ -39,14 +44,44 @@ fn upright(
     h: f64,
     load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
 ) -> Result<Plate, SceneError> {
-    let (width, height) = (2.0 * CRACK, 4.0 * CRACK);
-    let (low, high) = ([0.0, -height], [width, height]);
+    let ratio = a / WIDTH;
+    let form = if centre {
+        (1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4)) / (0.5 * PI * ratio).cos().sqrt()
+    } else {
+        1.12 - 0.231 * ratio + 10.55 * ratio.powi(2) - 21.72 * ratio.powi(3) + 30.39 * ratio.powi(4)
+    };
+    cracked(centre, a, 4.0 * CRACK, form, h, load)
+}
+
+/// Tests 1.1 and 2.1 of NAFEMS R0020: a/W = 1/2 in square plates, wherever in its cell that puts the tip.
+fn square_of_nafems(
+    centre: bool,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let (height, form) = if centre {
+        (WIDTH, 1.325)
+    } else {
+        (0.5 * WIDTH, 3.0)
+    };
+    cracked(centre, CRACK, height, form, h, load)
+}
+
+/// A plate of this half height with a crack of the intensity σ√(πa) times `form`.
+fn cracked(
+    centre: bool,
+    a: f64,
+    height: f64,
+    form: f64,
+    h: f64,
+    load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
+) -> Result<Plate, SceneError> {
+    let (low, high) = ([0.0, -height], [WIDTH, height]);
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
     scene.fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?;
     scene.crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?;
-    pull(&mut scene, width, height, h, load)?;
-    let ratio = a / width;
-    let form = if centre {
+    pull(&mut scene, WIDTH, height, h, load)?;
+    if centre {
         scene.hold(
             "symmetry",
             BODY,
@@ -54,10 +89,7 @@ fn upright(
             Hold::Component(Vector2::x()),
             Constant(0.0),
         )?;
-        (1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4)) / (0.5 * PI * ratio).cos().sqrt()
-    } else {
-        1.12 - 0.231 * ratio + 10.55 * ratio.powi(2) - 21.72 * ratio.powi(3) + 30.39 * ratio.powi(4)
-    };
+    }
     Ok(Plate {
         scene,
         low,

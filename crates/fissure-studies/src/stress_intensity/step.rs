@@ -16,7 +16,7 @@ use fissure_study::{Parameters, StudyError};
 use super::plates::{mouth, pull};
 use super::{BODY, CRACK, ELASTIC, STEEL, STRESS};
 use crate::method::Method;
-use crate::problem::Outcome;
+use crate::problem::{History, Outcome};
 
 /// Between which ways of the wave past the crack K is compared, over its length: later it is back from the other tip.
 const WINDOW: [f64; 2] = [0.2, 1.7];
@@ -48,6 +48,7 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
     let (mut rates, start) = (Rates::default(), Instant::now());
     let (mut asked, mut square, mut count) = (0.0, 0.0, 0.0);
     let mut found = (f64::NAN, f64::NAN);
+    let mut samples = Vec::new();
     while scene.time() < last {
         let before = scene.time();
         solver
@@ -60,6 +61,7 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
             let k1 = intensity(&mut rates, &scene, 0.4 * CRACK)
                 .map_err(StudyError::failed("measuring the tip"))?;
             found = (k1, exact(time));
+            samples.push([(time - met) * wave / a, k1, exact(time)]);
             square += (k1 - exact(time)).powi(2);
             count += 1.0;
         }
@@ -73,6 +75,11 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
     outcome.values.insert("k1", found.0);
     outcome.values.insert("k1_exact", found.1);
     outcome.values.insert("a_over_h", a / h);
+    outcome.history = Some(History {
+        x_label: "way of the wave past the crack over its length [1]",
+        y_label: "K_I [Pa √m]",
+        samples,
+    });
     let stress = outcome.scene.bodies()[0].motion().stress;
     let field = stress.iter().map(|s| s.yy() / STRESS).collect();
     outcome.field = Some(("σ_yy over the step [1]", field));

@@ -110,6 +110,7 @@ impl Problem for Brazilian {
             errors,
             values,
             field: Some(("stress across over pressure [1]", field)),
+            history: None,
         })
     }
 }

@@ -1,0 +1,5 @@
+//! Laws between the faces of cracks.
+
+mod bar;
+mod cantilever;
+mod flight;
