@@ -41,4 +41,7 @@ pub use fissure_scene::NewtonStop;
 pub use implicit::{Implicit, ImplicitSettings, Integration};
 pub use placement::Placement;
 #[cfg(feature = "implicit")]
-pub use quasi_static::{LoadControl, QuasiStatic, QuasiStaticSettings, VolumeChange};
+pub use quasi_static::{
+    Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, LoadControl, QuasiStatic,
+    QuasiStaticSettings,
+};

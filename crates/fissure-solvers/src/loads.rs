@@ -81,7 +81,8 @@ impl<'a, const D: usize> Loads<'a, D> {
         if let Some(load) = self.forces.get(node) {
             force = *load;
         }
-        if self.scene.has_body_force() {
+        // Nodes of jumps have no place, and no mass.
+        if mass > 0.0 && self.scene.has_body_force() {
             let x = self.placement.node_position(self.grid, node);
             if let Some(acceleration) = self.scene.body_acceleration(&x, self.time) {
                 force += acceleration * mass;

@@ -63,6 +63,12 @@ impl<const D: usize> NodeSums<D> {
         });
     }
 
+    /// More nodes, zero.
+    #[cfg(feature = "implicit")]
+    pub(crate) fn extend(&mut self, count: usize) {
+        self.nodes.resize_with(count, Node::default);
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.nodes.len()
     }

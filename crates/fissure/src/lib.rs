@@ -79,9 +79,8 @@ pub mod prelude {
     pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     #[cfg(feature = "implicit")]
     pub use fissure_solvers::{
-        Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, LoadControl, Method,
+        Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, LoadControl, Method,
         NewtonStop, Preconditioning, Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
-        VolumeChange,
     };
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     // The module too: `vector!` expands to paths into it.

@@ -88,8 +88,8 @@ impl<const D: usize> Links<D> {
         self.averages = Some(averages);
     }
 
-    /// Internal forces (3) of the stresses on the nodes.
-    pub(crate) fn averaged_forces(&self, scene: &Scene<D>, sums: &mut NodeSums<D>, at: At) {
+    /// Internal forces of the stresses on the nodes by the links: (3), or those of the gradients alone without means.
+    pub(crate) fn patch_forces(&self, scene: &Scene<D>, sums: &mut NodeSums<D>, at: At) {
         sums.clear(sums.len());
         for patch in (0..self.patches()).map(|patch| self.patch(patch)) {
             for member in patch.members {
@@ -109,9 +109,12 @@ impl<const D: usize> Links<D> {
                 let stress = SMatrix::<f64, D, D>::from_fn(|i, j| full[(i, j)] * volume);
                 let mean_stress = stress.trace() / D as f64;
                 let links = patch.links(member).iter();
-                for ((link, &node), mean) in links.zip(patch.nodes).zip(patch.means) {
+                for (place, (link, &node)) in links.zip(patch.nodes).enumerate() {
                     let gradient = turned * link.gradient;
-                    let force = stress * gradient + (mean - gradient) * mean_stress;
+                    let mut force = stress * gradient;
+                    if let Some(mean) = patch.means.get(place) {
+                        force += (mean - gradient) * mean_stress;
+                    }
                     let mut numbers = [0.0; SUMS];
                     for axis in 0..D {
                         numbers[NodeSums::<D>::FORCE + axis] = -force[axis];

@@ -5,7 +5,6 @@ use fissure_materials::Tangent;
 use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
-use super::averages::Averages;
 use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
 use super::links::Links;
@@ -17,15 +16,15 @@ use crate::loads::Loads;
 use crate::nodes::NodeSums;
 use crate::transfers::{Transfers, add_stress, momentum_gift};
 
-/// Trial motion and stresses for nodal displacements, with averaged volume changes or without, and tangents
-/// where there is room for them.
+/// Trial motion and stresses for nodal displacements, as the means and increments of `links` have it, and tangents where
+/// there is room for them.
 pub(crate) fn strain<S: Shape<D>, const D: usize>(
     scene: &mut Scene<D>,
     transfers: &Transfers<'_, S, D>,
     displacement: &[SVector<f64, D>],
     band: BandSource,
     dt: f64,
-    averages: Option<&Averages<D>>,
+    links: &Links<D>,
     mut tangents: Option<&mut [Vec<Tangent>]>,
 ) -> Result<SweepTotals, SolveError> {
     let (step, time) = (scene.step() + 1, scene.time());
@@ -34,7 +33,11 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
         let kernel = DisplacementKernel {
             transfers,
             displacement,
-            factors: averages.map(|averages| averages.factors[index].as_slice()),
+            factors: links
+                .averages
+                .as_ref()
+                .map(|averages| averages.factors[index].as_slice()),
+            increments: links.increments.get(index).map(Vec::as_slice),
             half_edges: *body.half_edges(),
             dt,
         };
@@ -117,6 +120,21 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
         }
         gift
     })
+}
+
+/// The same, by the links where they are not what the shape functions say.
+pub(crate) fn stress_forces<S: Shape<D>, const D: usize>(
+    links: &Links<D>,
+    transfers: &Transfers<'_, S, D>,
+    scene: &Scene<D>,
+    sums: &mut NodeSums<D>,
+    at: At,
+) -> Result<(), (usize, usize)> {
+    if links.are_plain() {
+        return internal_forces(transfers, scene, sums, at);
+    }
+    links.patch_forces(scene, sums, at);
+    Ok(())
 }
 
 /// What is out of balance.

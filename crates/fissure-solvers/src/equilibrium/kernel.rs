@@ -5,6 +5,7 @@ use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::{SMatrix, SVector};
 
+use super::links::Increment;
 use crate::transfers::Transfers;
 use crate::window::WindowNodes;
 
@@ -15,6 +16,8 @@ pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
     pub displacement: &'a [SVector<f64, D>],
     /// Factors on the deformation gradients, one a particle, where volume changes are averaged.
     pub factors: Option<&'a [f64]>,
+    /// What displaces the particles, one by one, where that is not what their shape functions say.
+    pub increments: Option<&'a [Increment<D>]>,
     pub half_edges: SMatrix<f64, D, D>,
     pub dt: f64,
 }
@@ -52,6 +55,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             transfers,
             displacement,
             factors,
+            increments,
             half_edges,
             dt,
         } = self.step;
@@ -70,6 +74,11 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
                 way += u * weight;
                 gradient_sum += u * gradient.transpose();
             });
+            if let Some(increments) = increments {
+                let increment = &increments[run.start as usize + row];
+                gradient_sum = increment.gradient;
+                way += increment.way;
+            }
             let mut f = *f_old;
             for i in 0..D {
                 for j in 0..3 {

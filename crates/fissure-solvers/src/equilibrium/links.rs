@@ -4,12 +4,14 @@
 //! like the integration points of an element. The patches give the pattern of the stiffness.
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use fissure_grid::{Shape, Stencil};
 use fissure_scene::Scene;
 use nalgebra::{SMatrix, SVector};
 
 use super::averages::Averages;
+use super::one_strain::Firm;
 use super::stiffness::relative;
 use crate::linear::BlockPattern;
 use crate::transfers::Transfers;
@@ -36,6 +38,33 @@ pub(crate) struct Member {
     first: u32,
 }
 
+impl Member {
+    /// Places of its links, one for each of the `count` nodes of its patch.
+    pub(super) fn links(&self, count: usize) -> Range<usize> {
+        self.first as usize..self.first as usize + count
+    }
+}
+
+/// What nodes displace a particle by, where that is not what its shape functions say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Increment<const D: usize> {
+    /// Of the displacement in the step.
+    pub gradient: SMatrix<f64, D, D>,
+    /// Further way, m.
+    pub way: SVector<f64, D>,
+}
+
+/// A cell whose nodes a discontinuity separates: the jump is the displacement of a node of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Cut {
+    pub patch: usize,
+    /// The node of the jump, behind all nodes of the grid, and its number among the active ones.
+    pub node: u32,
+    pub number: u32,
+    /// Nodes of the patch, by place in it: itself, and whether it lies on the side to which the normal points.
+    pub nodes: Vec<(u32, bool)>,
+}
+
 /// The nodes that any particle reaches ("active" ones, with numbers of their own), and the patches.
 #[derive(Debug, Default)]
 pub(crate) struct Links<const D: usize> {
@@ -47,13 +76,22 @@ pub(crate) struct Links<const D: usize> {
     pub joined: Vec<[u32; 2]>,
     /// Nodes of the patches by their numbers, and where each patch's begin.
     nodes: Vec<u32>,
-    node_starts: Vec<u32>,
+    pub(super) node_starts: Vec<u32>,
     /// Particles of the patches, and where each patch's begin.
-    members: Vec<Member>,
-    member_starts: Vec<u32>,
-    links: Vec<Link<D>>,
+    pub(super) members: Vec<Member>,
+    pub(super) member_starts: Vec<u32>,
+    pub(super) links: Vec<Link<D>>,
     /// Means over the patches, where wanted.
     pub averages: Option<Averages<D>>,
+    /// `a` of every link and `k` of every patch, where all particles of a patch have one strain; else nothing.
+    pub(super) arms: Vec<SVector<f64, D>>,
+    pub(super) firmness: Vec<f64>,
+    /// Whether each node is on the side of a discontinuity to which its normal points; empty without one.
+    pub sides: Vec<bool>,
+    /// The cells that it cuts.
+    pub cuts: Vec<Cut>,
+    /// Of every particle of every body, where particles are not displaced as their shape functions say; else nothing.
+    pub increments: Vec<Vec<Increment<D>>>,
 }
 
 /// A patch.
@@ -66,12 +104,19 @@ pub(crate) struct Patch<'a, const D: usize> {
     /// Mean gradients of its nodes, or nothing.
     pub means: &'a [SVector<f64, D>],
     factors: &'a [Vec<f64>],
+    pub firm: Firm<'a, D>,
 }
 
 impl<const D: usize> Patch<'_, D> {
     /// Links of a particle to the nodes of the patch.
     pub(crate) fn links(&self, member: &Member) -> &[Link<D>] {
-        &self.links[member.first as usize..member.first as usize + self.nodes.len()]
+        &self.links[member.links(self.nodes.len())]
+    }
+
+    /// What joins a particle's deviation from the patch's mean to the nodes; nothing where particles have strains of their own.
+    pub(crate) fn arms(&self, member: &Member) -> &[SVector<f64, D>] {
+        let arms = self.firm.arms.get(member.links(self.nodes.len()));
+        arms.unwrap_or(&[])
     }
 
     /// `f⁻ᵀ` of a particle's own deformation in the step: takes gradients to its end.
@@ -139,9 +184,90 @@ impl<const D: usize> Links<D> {
             }
         }
         self.join();
+        self.cut(placement.node_count());
         self.sort_members(&found);
-        self.number_active(placement.node_count());
+        self.number_active(placement.node_count() + self.cuts.len());
+        self.arms.clear();
+        self.firmness.clear();
         Ok(())
+    }
+
+    /// Gives cells whose nodes lie on both sides of a discontinuity a node more.
+    fn cut(&mut self, node_count: usize) {
+        self.cuts.clear();
+        if self.sides.is_empty() {
+            return;
+        }
+        for patch in 0..self.patches() {
+            let nodes = self.node_starts[patch] as usize..self.node_starts[patch + 1] as usize;
+            let sided = self.nodes[nodes].iter();
+            let nodes: Vec<(u32, bool)> = sided
+                .map(|&node| (node, self.sides[node as usize]))
+                .collect();
+            if nodes.iter().any(|node| node.1) && nodes.iter().any(|node| !node.1) {
+                self.cuts.push(Cut {
+                    patch,
+                    node: (node_count + self.cuts.len()) as u32,
+                    number: NONE,
+                    nodes,
+                });
+            }
+        }
+        for cut in &self.cuts {
+            self.nodes.extend(cut.nodes.iter().map(|node| node.0));
+            self.nodes.push(cut.node);
+            self.node_starts.push(self.nodes.len() as u32);
+        }
+    }
+
+    /// Finds [`increments`](Self::increments) for displacements of the nodes.
+    pub(crate) fn increase(&mut self, scene: &Scene<D>, displacement: &[SVector<f64, D>]) {
+        let mut increments = std::mem::take(&mut self.increments);
+        if self.arms.is_empty() && self.cuts.is_empty() {
+            increments.clear();
+            self.increments = increments;
+            return;
+        }
+        let none = Increment {
+            gradient: SMatrix::zeros(),
+            way: SVector::zeros(),
+        };
+        increments.resize(scene.bodies().len(), Vec::new());
+        for (increments, body) in increments.iter_mut().zip(scene.bodies()) {
+            increments.clear();
+            increments.resize(body.particles().len(), none);
+        }
+        let mut cuts = self.cuts.iter().peekable();
+        for (number, patch) in (0..self.patches()).map(|number| (number, self.patch(number))) {
+            let cut = cuts.next_if(|cut| cut.patch == number);
+            for member in patch.members {
+                let increment = &mut increments[member.body as usize][member.index as usize];
+                for (place, (link, &node)) in
+                    patch.links(member).iter().zip(patch.nodes).enumerate()
+                {
+                    let mut u = displacement[self.active[node as usize] as usize];
+                    if let Some(cut) = cut
+                        && cut.nodes[place].1
+                    {
+                        let jump = displacement[cut.node as usize];
+                        u -= jump;
+                        increment.way -= jump * link.weight;
+                    }
+                    increment.gradient += u * link.gradient.transpose();
+                }
+            }
+        }
+        self.increments = increments;
+    }
+
+    /// Whether particles are displaced as their shape functions say.
+    pub(crate) fn are_plain(&self) -> bool {
+        self.averages.is_none() && self.arms.is_empty() && self.cuts.is_empty()
+    }
+
+    /// How many nodes there are, those of jumps included.
+    pub(crate) fn node_count<S>(&self, transfers: &Transfers<'_, S, D>) -> usize {
+        transfers.placement.node_count() + self.cuts.len()
     }
 
     /// The patch of these nodes among those from `first` on, a new one if there is none.
@@ -214,6 +340,9 @@ impl<const D: usize> Links<D> {
         for node in &mut self.nodes {
             *node = self.numbers[*node as usize];
         }
+        for cut in &mut self.cuts {
+            cut.number = self.numbers[cut.node as usize];
+        }
     }
 
     /// Number of a node among the active ones.
@@ -232,7 +361,15 @@ impl<const D: usize> Links<D> {
     /// Where the active nodes are, m.
     pub(crate) fn positions<S>(&self, transfers: &Transfers<'_, S, D>) -> Vec<[f64; D]> {
         let (grid, placement) = (transfers.grid, transfers.placement);
-        let position = |&node: &u32| placement.node_position(grid, node as usize).into();
+        let of_grid = |node: u32| placement.node_position(grid, node as usize);
+        let position = |&node: &u32| {
+            let cut = (node as usize).checked_sub(placement.node_count());
+            let Some(cut) = cut.and_then(|cut| self.cuts.get(cut)) else {
+                return of_grid(node).into();
+            };
+            let sum: SVector<f64, D> = cut.nodes.iter().map(|node| of_grid(node.0)).sum();
+            (sum / cut.nodes.len() as f64).into()
+        };
         self.active.iter().map(position).collect()
     }
 
@@ -255,6 +392,10 @@ impl<const D: usize> Links<D> {
             factors: match &self.averages {
                 Some(averages) => &averages.factors,
                 None => &[],
+            },
+            firm: Firm {
+                stiffness: self.firmness.get(patch).copied().unwrap_or(0.0),
+                arms: &self.arms,
             },
         }
     }

@@ -2,7 +2,7 @@
 //! function of the displacement increments of the nodes, and its derivative.
 //!
 //! `links` lists which nodes a particle reaches at the start of the step, `kernel` strains the
-//! particles, `averages` gives those of a patch one volume change, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
+//! particles, `averages` gives those of a patch one volume change, `one_strain` one strain, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
 //! conditions hold, `system` solves for a correction, `pace` chooses step lengths, `failure` and
 //! `statistics` say how an attempt ended.
 
@@ -13,6 +13,7 @@ pub(crate) mod failure;
 pub(crate) mod freedoms;
 pub(crate) mod kernel;
 pub(crate) mod links;
+pub(crate) mod one_strain;
 pub(crate) mod pace;
 pub(crate) mod statistics;
 pub(crate) mod stiffness;

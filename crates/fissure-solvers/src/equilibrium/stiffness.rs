@@ -214,6 +214,42 @@ fn each_patch<const D: usize, T: Clone + Send + Sync>(
     }
 }
 
+/// What displacements of the nodes of one patch do to it.
+pub(crate) struct PatchRates<const D: usize> {
+    /// The patch's part of the stiffness, row by row.
+    pub forces: Vec<SMatrix<f64, D, D>>,
+    /// Rates of `Σ V σ·n` with each node's displacement.
+    pub tractions: Vec<SMatrix<f64, D, D>>,
+}
+
+/// The derivatives of a patch of the plane; those of its tractions without what turning does to the stress.
+pub(crate) fn patch_rates<const D: usize>(
+    patch: &Patch<'_, D>,
+    scene: &Scene<D>,
+    tangents: &[Vec<Tangent>],
+    normal: &SVector<f64, D>,
+) -> PatchRates<D> {
+    let count = patch.nodes.len();
+    let mut rates = PatchRates {
+        forces: vec![SMatrix::zeros(); count * count],
+        tractions: vec![SMatrix::zeros(); count],
+    };
+    let mut nodes = Vec::new();
+    for member in patch.members {
+        let point = Strained::<D, 4>::new(patch, member, scene, tangents);
+        point.add(&mut rates.forces, &mut nodes);
+        for (rate, (_, strain)) in rates.tractions.iter_mut().zip(&nodes) {
+            let stress = point.tangent * strain;
+            for column in 0..D {
+                let shear = FRAC_1_SQRT_2 * stress[(3, column)];
+                rate[(0, column)] += stress[(0, column)] * normal[0] + shear * normal[1];
+                rate[(1, column)] += shear * normal[0] + stress[(1, column)] * normal[1];
+            }
+        }
+    }
+    rates
+}
+
 /// Patches that a thread works on at a time.
 const CHUNK: usize = 64;
 
@@ -232,6 +268,9 @@ struct Strained<'a, const D: usize, const V: usize> {
     hoop_stress: f64,
     /// `1/r` of an axisymmetric scene, else 0.
     inverse_radius: f64,
+    /// `k V` and `a` of what holds the particle to the mean of its patch (see `one_strain`), or nothing.
+    firm: f64,
+    arms: &'a [SVector<f64, D>],
 }
 
 impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
@@ -257,6 +296,8 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
             stress: SMatrix::from_fn(|i, j| full[(i, j)] * volume),
             hoop_stress: stress.zz() * volume,
             inverse_radius: inverse_radius(scene, &particles.trial.position[index]),
+            firm: patch.firm.stiffness * particles.volume[index],
+            arms: patch.arms(member),
         }
     }
 
@@ -318,6 +359,15 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
             *force += of_unit.tr_mul(&stress) + turning * gradient;
             force[0] += hoop * self.links[place].weight;
         }
+        let mut deviation = SMatrix::<f64, D, D>::zeros();
+        for (arm, &node) in self.arms.iter().zip(nodes) {
+            let first = D * node as usize;
+            let u = SVector::<f64, D>::from_column_slice(&x[first..first + D]);
+            deviation += u * arm.transpose() * self.firm;
+        }
+        for (arm, force) in self.arms.iter().zip(forces) {
+            *force += deviation * arm;
+        }
     }
 
     /// Adds the blocks of every node with itself.
@@ -327,8 +377,9 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
             let (gradient, strain) = self.of_link(place);
             *block += strain.tr_mul(&(self.tangent * strain));
             let turning = gradient.dot(&(self.stress * gradient));
+            let held = self.arms.get(place).map_or(0.0, SVector::norm_squared);
             for axis in 0..D {
-                block[(axis, axis)] += turning;
+                block[(axis, axis)] += turning + self.firm * held;
             }
             block[(0, 0)] += hoop * self.links[place].weight.powi(2);
         }
@@ -351,7 +402,10 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
             for (row, (gradient, strain)) in nodes.iter().enumerate() {
                 let block = &mut blocks[row * count + column];
                 *block += strain.tr_mul(&stress);
-                let turning = gradient.dot(&traction);
+                let mut turning = gradient.dot(&traction);
+                if let (Some(a), Some(b)) = (self.arms.get(row), self.arms.get(column)) {
+                    turning += self.firm * a.dot(b);
+                }
                 for axis in 0..D {
                     block[(axis, axis)] += turning;
                 }

@@ -25,7 +25,16 @@ pub(crate) struct System<const D: usize> {
     pub stiffness: Stiffness<D>,
     /// What joins nodes besides the particles; `links.joined` holds their nodes.
     pub springs: Vec<Spring<D>>,
+    /// Blocks that jumps within cells add.
+    pub further: Vec<Block<D>>,
     direct: Option<Direct<D>>,
+}
+
+/// A block of the stiffness by numbers of active nodes.
+pub(crate) struct Block<const D: usize> {
+    pub row: usize,
+    pub column: usize,
+    pub block: SMatrix<f64, D, D>,
 }
 
 /// A spring between two active nodes.
@@ -140,6 +149,11 @@ impl<const D: usize> System<D> {
                         matrix.blocks[place] += stiffness * sign;
                     }
                 }
+            }
+        }
+        for further in &self.further {
+            if let Some(place) = matrix.pattern().place(further.row, further.column) {
+                matrix.blocks[place] += further.block;
             }
         }
     }

@@ -245,7 +245,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             displacement,
             band,
             dt,
-            None,
+            &system.links,
             tangents,
         )?;
         internal_forces(&self.transfers, scene, sums, At::End)

@@ -6,11 +6,11 @@ use nalgebra::SVector;
 
 use super::newton::balanced;
 use super::path::{Goal, follow};
-use super::settings::{LoadControl, VolumeChange};
+use super::settings::LoadControl;
 use super::step::QuasiStatic;
 use super::trial::{Equilibrium, Start, Trial};
 use crate::checks::outside;
-use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
+use crate::equilibrium::balance::{At, external_forces, forces, momenta, stress_forces};
 use crate::equilibrium::failure::Failure;
 use crate::transfers::Transfers;
 
@@ -46,11 +46,15 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .find(&transfers, scene, &self.release)
             .map_err(|failed| off_grid(scene, failed))?;
         self.system.links.joined = self.faces.joined();
+        if let Some(embedded) = &self.embedded {
+            self.system.links.sides = embedded.sides(grid, &self.placement);
+        }
         self.system
             .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;
         let sums = &mut self.internal;
         momenta(&transfers, scene, sums).map_err(|failed| off_grid(scene, failed))?;
+        sums.extend(self.system.links.node_count(&transfers));
         let nodes = 0..sums.len();
         let masses: Vec<f64> = nodes.clone().map(|node| sums.mass(node)).collect();
         self.displacement.clear();
@@ -68,14 +72,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let external = external_forces(&transfers, scene, &masses, load_time)
             .map_err(|failed| off_grid(scene, failed))?;
         let links = &mut self.system.links;
-        if self.settings.volume == VolumeChange::Patch {
-            let still = vec![SVector::zeros(); sums.len()];
-            links.average(scene, &still);
-            links.averaged_forces(scene, sums, At::Start);
-        } else {
-            internal_forces(&transfers, scene, sums, At::Start)
-                .map_err(|failed| off_grid(scene, failed))?;
+        links.average_as(self.settings.averaging, scene, &self.deviations, sums.len());
+        if let Some(embedded) = &mut self.embedded {
+            embedded.begin(links, scene, &self.grid, &self.placement);
         }
+        stress_forces(links, &transfers, scene, sums, At::Start)
+            .map_err(|failed| off_grid(scene, failed))?;
         self.tangents.resize(scene.bodies().len(), Vec::new());
         self.statistics.residuals.clear();
         Ok(Trial {
@@ -93,6 +95,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             constraints: &mut self.constraints,
             system: &mut self.system,
             faces: &mut self.faces,
+            embedded: self.embedded.as_mut(),
+            deviations: &self.deviations,
+            hourglass_work: 0.0,
             stresses: Vec::new(),
             internal: &mut self.internal,
             tangents: &mut self.tangents,

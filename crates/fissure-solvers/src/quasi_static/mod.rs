@@ -8,10 +8,12 @@
 //! A step that does not converge is cut and tried again; the scene is untouched until one does.
 //!
 //! `trial` is a step in the making; `newton` balances it at a given load, `path` with the load as an
-//! unknown, for which `border` has the scalar equations; `control` chooses between them, `step` cuts and books.
+//! unknown, for which `border` has the scalar equations; `control` chooses between them, `step` cuts and books. `faces`
+//! says what faces of cracks do to each other, `embedded` what a crack within cells does.
 
 mod border;
 mod control;
+mod embedded;
 mod faces;
 mod newton;
 mod path;
@@ -19,5 +21,6 @@ mod settings;
 mod step;
 mod trial;
 
-pub use settings::{LoadControl, QuasiStaticSettings, VolumeChange};
+pub use embedded::{EmbeddedCrack, EmbeddedForm, EmbeddedJump};
+pub use settings::{Averaging, LoadControl, QuasiStaticSettings};
 pub use step::QuasiStatic;

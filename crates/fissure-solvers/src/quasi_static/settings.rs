@@ -1,8 +1,11 @@
 //! Choices of the quasi-static solver.
 
-use fissure_scene::SolveError;
+use fissure_scene::{Scene, SolveError};
+use nalgebra::SVector;
 
 use crate::band::BandSource;
+use crate::equilibrium::links::Links;
+use crate::equilibrium::one_strain::Deviations;
 
 /// What a load step holds fixed.
 ///
@@ -26,15 +29,23 @@ pub enum LoadControl {
     },
 }
 
-/// Whose volume change a particle takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VolumeChange {
-    /// Its own.
+/// What of their deformation the particles of a patch have in common: those of a body that reach the same nodes, with
+/// linear functions those of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Averaging {
+    /// Nothing.
     #[default]
-    Particle,
-    /// The mean of its body's particles that reach the same nodes: with linear functions those of its cell. Against
-    /// locking of nearly incompressible bodies (F-bar, B-bar); in plane strain and in space.
-    Patch,
+    None,
+    /// The change of their volume. Against locking of nearly incompressible bodies (F-bar, B-bar); in plane strain
+    /// and in space.
+    Volume,
+    /// All of it: one strain per cell. Against the locking of smeared cracks oblique to the grid, with a law that keeps
+    /// no elastic shear on a crack; not in axisymmetry.
+    Strain {
+        /// Stiffness against what the mean does not see, over that of the material as it is; ≥ 0. 0.1 is enough,
+        /// 1 locks again.
+        hourglass: f64,
+    },
 }
 
 /// Choices of the quasi-static solver.
@@ -55,10 +66,27 @@ pub struct QuasiStaticSettings {
     pub max_iterations: usize,
     /// How often a step may be halved before it fails; at most 40.
     pub max_cuts: usize,
-    /// Whose volume change a particle takes.
-    pub volume: VolumeChange,
+    /// What the particles of a cell have in common.
+    pub averaging: Averaging,
     /// Width over which cracks smear.
     pub band: BandSource,
+}
+
+impl<const D: usize> Links<D> {
+    /// Averages over the patches at the start of a step, on so many nodes.
+    pub(super) fn average_as(
+        &mut self,
+        averaging: Averaging,
+        scene: &Scene<D>,
+        deviations: &Deviations<D>,
+        nodes: usize,
+    ) {
+        match averaging {
+            Averaging::None => {}
+            Averaging::Volume => self.average(scene, &vec![SVector::zeros(); nodes]),
+            Averaging::Strain { hourglass } => self.one_strain(scene, deviations, hourglass),
+        }
+    }
 }
 
 impl Default for QuasiStaticSettings {
@@ -70,7 +98,7 @@ impl Default for QuasiStaticSettings {
             tolerance: 1e-8,
             max_iterations: 40,
             max_cuts: 12,
-            volume: VolumeChange::Particle,
+            averaging: Averaging::None,
             band: BandSource::default(),
         }
     }
@@ -99,6 +127,11 @@ impl QuasiStaticSettings {
         }
         if !(self.tolerance > 0.0 && self.tolerance <= 1e-2) {
             return refuse("tolerance", self.tolerance, "in (0, 1e-2]");
+        }
+        if let Averaging::Strain { hourglass } = self.averaging
+            && !(hourglass >= 0.0 && hourglass.is_finite())
+        {
+            return refuse("hourglass", hourglass, "finite and >= 0");
         }
         if self.max_iterations == 0 {
             return refuse("max_iterations", 0.0, ">= 1");

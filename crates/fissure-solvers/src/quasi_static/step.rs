@@ -8,13 +8,15 @@ use fissure_scene::{
 };
 use nalgebra::SVector;
 
+use super::embedded::{Embedded, EmbeddedCrack, EmbeddedJump};
 use super::faces::Faces;
-use super::settings::{QuasiStaticSettings, VolumeChange};
+use super::settings::{Averaging, QuasiStaticSettings};
 use super::trial::Equilibrium;
 use crate::checks::{check_columns, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::strain;
+use crate::equilibrium::one_strain::Deviations;
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::statistics::StepStatistics;
 use crate::equilibrium::system::System;
@@ -34,6 +36,8 @@ pub struct QuasiStatic<S, const D: usize> {
     pub(super) system: System<D>,
     pub(super) faces: Faces<D>,
     pub(super) release: Release<D>,
+    pub(super) embedded: Option<Embedded<D>>,
+    pub(super) deviations: Deviations<D>,
     pub(super) internal: NodeSums<D>,
     pub(super) displacement: Vec<SVector<f64, D>>,
     pub(super) tangents: Vec<Vec<Tangent>>,
@@ -71,6 +75,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             system: System::default(),
             faces: Faces::default(),
             release: Release::default(),
+            embedded: None,
+            deviations: Deviations::default(),
             internal: NodeSums::default(),
             displacement: Vec::new(),
             tangents: Vec::new(),
@@ -125,17 +131,17 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         self.system.springs.clear();
         self.tangents.resize(scene.bodies().len(), Vec::new());
         let (band, dt) = (self.settings.band, self.settings.step);
+        self.system.further.clear();
         let links = &mut self.system.links;
-        if self.settings.volume == VolumeChange::Patch {
-            links.average(scene, &still);
-        }
+        links.average_as(self.settings.averaging, scene, &self.deviations, still.len());
+        links.increase(scene, &still);
         strain(
             scene,
             &transfers,
             &still,
             band,
             dt,
-            links.averages.as_ref(),
+            links,
             Some(&mut self.tangents),
         )?;
         self.system.assemble(scene, &self.tangents);
@@ -162,21 +168,28 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                     what: "contact between bodies in a quasi-static step",
                 });
             }
-            let averages = self.settings.volume == VolumeChange::Patch;
-            let kinematics = scene.kinematics();
-            if averages
-                && !matches!(
-                    kinematics,
-                    Kinematics::PlaneStrain { .. } | Kinematics::Solid
-                )
-            {
-                return Err(SolveError::Unsupported {
-                    what: "averaging volume changes other than in plane strain and in space",
-                });
-            }
+            self.check_kinematics(scene)?;
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
         self.placement.update(&self.grid, scene)
+    }
+
+    fn check_kinematics(&self, scene: &Scene<D>) -> Result<(), SolveError> {
+        let refuse = |what| Err(SolveError::Unsupported { what });
+        let kinematics = scene.kinematics();
+        let whole = matches!(kinematics, Kinematics::PlaneStrain { .. } | Kinematics::Solid);
+        let axial = kinematics == Kinematics::Axisymmetric;
+        match self.settings.averaging {
+            Averaging::Volume if !whole => {
+                refuse("averaging volume changes other than in plane strain and in space")
+            }
+            Averaging::Strain { .. } if axial => refuse("averaging strains in axisymmetry"),
+            _ if self.embedded.is_none() => Ok(()),
+            _ if axial => refuse("an embedded crack in axisymmetry"),
+            _ if !scene.cracks().is_empty() => refuse("an embedded crack beside cracks of the scene"),
+            Averaging::None => Ok(()),
+            _ => refuse("an embedded crack with averages over cells"),
+        }
     }
 
     /// Makes the trial the present and books the step.
@@ -194,6 +207,10 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             ..
         } = self;
         self.release.keep(grid, self.faces.tied(displacement));
+        self.deviations.keep(&system.links, scene, displacement);
+        if let Some(embedded) = &mut self.embedded {
+            embedded.keep();
+        }
         let cracks = carried(scene, grid, placement, |node| {
             system.links.number(node).map(|_| (1.0, displacement[node]))
         })?;
@@ -255,6 +272,23 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     }
 }
 
+impl QuasiStatic<fissure_grid::shape::Linear, 2> {
+    /// The solver with a crack within the cells that a line crosses; in the plane, and without cracks of the scene.
+    ///
+    /// # Errors
+    /// A normal that is zero or not finite, a law outside its range.
+    pub fn with_embedded(mut self, crack: EmbeddedCrack) -> Result<Self, SolveError> {
+        self.embedded = Some(Embedded::new(crack)?);
+        Ok(self)
+    }
+
+    /// The embedded crack, cell by cell; nothing without one.
+    pub fn embedded_jumps(&self) -> Vec<EmbeddedJump> {
+        let embedded = self.embedded.iter();
+        embedded.flat_map(|embedded| embedded.jumps(&self.grid)).collect()
+    }
+}
+
 impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
     fn step(&mut self, scene: &mut Scene<D>, until: f64) -> Result<Report<D>, SolveError> {
         check_until(scene, until)?;
@@ -297,6 +331,8 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             flag(self.dissipated_before),
         ];
         memory.extend(self.release.memory());
+        memory.extend(self.deviations.memory());
+        memory.extend(self.embedded.iter().flat_map(Embedded::memory));
         memory
     }
 
@@ -312,7 +348,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for QuasiStatic<S, D> {
             ref rest @ ..,
         ] = *memory
         {
-            self.release.recall(rest);
+            let rest = self.release.recall(rest);
+            let rest = self.deviations.recall(rest);
+            if let Some(embedded) = &mut self.embedded {
+                embedded.recall(rest);
+            }
             self.pace.next = next_step;
             self.force_scale = force_scale;
             self.has_stepped = stepped != 0.0;

@@ -7,14 +7,16 @@ use fissure_materials::Tangent;
 use fissure_scene::{ConditionKind, NewtonStop, Scene, SweepTotals};
 use nalgebra::SVector;
 
+use super::embedded::Embedded;
 use super::faces::Faces;
-use super::settings::{QuasiStaticSettings, VolumeChange};
+use super::settings::{Averaging, QuasiStaticSettings};
 use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::equilibrium::balance::{
-    At, external_forces, forces, internal_forces, reactions, strain, unbalanced, work,
+    At, external_forces, forces, reactions, strain, stress_forces, unbalanced, work,
 };
 use crate::equilibrium::failure::Failure;
+use crate::equilibrium::one_strain::Deviations;
 use crate::equilibrium::statistics::StepStatistics;
 use crate::equilibrium::system::{Jacobian, System};
 use crate::nodes::NodeSums;
@@ -37,6 +39,12 @@ pub(super) struct Trial<'a, S, const D: usize> {
     pub system: &'a mut System<D>,
     /// Where faces of cracks may touch.
     pub faces: &'a mut Faces<D>,
+    /// A crack within cells.
+    pub embedded: Option<&'a mut Embedded<D>>,
+    /// What particles deviate by from the strain of their cell.
+    pub deviations: &'a Deviations<D>,
+    /// Work that holds particles to it in the step, J.
+    pub hourglass_work: f64,
     /// Forces of the trial stresses, without those of the faces, N.
     pub stresses: Vec<SVector<f64, D>>,
     pub internal: &'a mut NodeSums<D>,
@@ -184,14 +192,14 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
     pub(super) fn strain(&mut self, with_tangents: bool) -> Result<SweepTotals, Failure> {
         let tangents = with_tangents.then_some(self.tangents.as_mut_slice());
         let links = &mut self.system.links;
-        if self.settings.volume == VolumeChange::Patch {
+        if self.settings.averaging == Averaging::Volume {
             links.average(self.scene, self.displacement);
         }
-        let averages = links.averages.as_ref();
+        links.increase(self.scene, self.displacement);
         let (band, dt) = (self.settings.band, self.dt);
         let (transfers, u) = (&self.transfers, self.displacement.as_slice());
         Ok(strain(
-            self.scene, transfers, u, band, dt, averages, tangents,
+            self.scene, transfers, u, band, dt, links, tangents,
         )?)
     }
 
@@ -201,15 +209,25 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
         loads: &[SVector<f64, D>],
         with_tangents: bool,
     ) -> Result<Balance, Failure> {
-        let totals = self.strain(with_tangents)?;
-        if self.settings.volume == VolumeChange::Patch {
-            let links = &self.system.links;
-            links.averaged_forces(self.scene, self.internal, At::End);
-        } else {
-            internal_forces(&self.transfers, self.scene, self.internal, At::End)
-                .map_err(|(body, index)| outside(self.scene, body, index))?;
-        }
+        let mut totals = self.strain(with_tangents)?;
+        let links = &self.system.links;
+        stress_forces(links, &self.transfers, self.scene, self.internal, At::End)
+            .map_err(|(body, index)| outside(self.scene, body, index))?;
         self.stresses = forces(self.internal);
+        self.hourglass_work = links.add_hourglass(
+            self.scene,
+            self.deviations,
+            self.displacement,
+            self.internal,
+        );
+        if let Some(embedded) = &mut self.embedded {
+            embedded.add(links, self.scene, self.displacement, self.internal)?;
+            embedded.energies(&mut totals);
+            self.system.further = match with_tangents {
+                true => embedded.blocks(links, self.scene, self.tangents),
+                false => Vec::new(),
+            };
+        }
         let System { links, springs, .. } = &mut *self.system;
         self.faces
             .add(links, self.displacement, self.internal, springs);
@@ -279,7 +297,7 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
             load_work: work(&start.external, loads, u),
             internal_work: -work(&start.internal, &self.stresses, u),
             contact_work: self.faces.work(u),
-            stabilising_work,
+            stabilising_work: stabilising_work + self.hourglass_work,
             length: self.length(u),
             force_scale: balance.scale,
         }

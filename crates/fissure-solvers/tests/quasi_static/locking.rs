@@ -4,7 +4,7 @@ use fissure_grid::{Grid, shape};
 use fissure_materials::NeoHookean;
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{Constant, Hold, Plane, Scene, SolveError, Solver};
-use fissure_solvers::{QuasiStatic, QuasiStaticSettings, VolumeChange};
+use fissure_solvers::{Averaging, QuasiStatic, QuasiStaticSettings};
 use nalgebra::vector;
 
 const CELL: f64 = 0.25;
@@ -41,10 +41,10 @@ fn beam(plane: Plane, poisson: f64, load: f64) -> Scene<2> {
 
 const STRAIN: Plane = Plane::Strain { thickness: 1.0 };
 
-fn solver(volume: VolumeChange, tolerance: f64) -> QuasiStatic<shape::Linear, 2> {
+fn solver(averaging: Averaging, tolerance: f64) -> QuasiStatic<shape::Linear, 2> {
     let grid = Grid::over([-1.0, -3.0], [5.0, 2.0], CELL).unwrap();
     let settings = QuasiStaticSettings {
-        volume,
+        averaging,
         tolerance,
         ..QuasiStaticSettings::default()
     };
@@ -52,9 +52,9 @@ fn solver(volume: VolumeChange, tolerance: f64) -> QuasiStatic<shape::Linear, 2>
 }
 
 /// How far the end sinks, m.
-fn sag(poisson: f64, load: f64, volume: VolumeChange) -> f64 {
+fn sag(poisson: f64, load: f64, averaging: Averaging) -> f64 {
     let mut scene = beam(STRAIN, poisson, load);
-    solver(volume, 1e-6).step(&mut scene, 1.0).unwrap();
+    solver(averaging, 1e-6).step(&mut scene, 1.0).unwrap();
     let position = scene.bodies()[0].motion().position;
     0.5 - position
         .iter()
@@ -68,8 +68,8 @@ fn sag(poisson: f64, load: f64, volume: VolumeChange) -> f64 {
 #[test]
 fn x2_bending_does_not_lock() {
     let expected = (1.0 - 0.4999_f64.powi(2)) / (1.0 - 0.3_f64.powi(2));
-    let ratio = |volume| sag(0.4999, 1.0, volume) / sag(0.3, 1.0, volume) / expected;
-    let (own, mean) = (ratio(VolumeChange::Particle), ratio(VolumeChange::Patch));
+    let ratio = |averaging| sag(0.4999, 1.0, averaging) / sag(0.3, 1.0, averaging) / expected;
+    let (own, mean) = (ratio(Averaging::None), ratio(Averaging::Volume));
     assert!((mean - 1.0).abs() <= 0.05, "{mean}");
     assert!(own <= 0.5, "{own}");
 }
@@ -80,7 +80,7 @@ fn x2_bending_does_not_lock() {
 fn large_displacements_converge_and_balance() {
     for poisson in [0.3, 0.499] {
         let mut scene = beam(STRAIN, poisson, 200.0);
-        let mut solver = solver(VolumeChange::Patch, 1e-8);
+        let mut solver = solver(Averaging::Volume, 1e-8);
         let mut balance = 0.0;
         let steps = 5;
         for step in 1..=steps {
@@ -113,7 +113,7 @@ fn large_displacements_converge_and_balance() {
 /// Where the deformation is uniform there is nothing to average.
 #[test]
 fn uniform_stretch_is_left_alone() {
-    let reach = |volume| {
+    let reach = |averaging| {
         let mut scene = Scene::plane(STRAIN);
         let law = NeoHookean {
             density: 1000.0,
@@ -140,11 +140,11 @@ fn uniform_stretch_is_left_alone() {
                 .rigid(name, &Block::new(from, to), &spacing, hold, Constant(speed))
                 .unwrap();
         }
-        solver(volume, 1e-10).step(&mut scene, 1.0).unwrap();
+        solver(averaging, 1e-10).step(&mut scene, 1.0).unwrap();
         let stress = scene.bodies()[0].motion().stress;
         (stress[0].xx(), scene.reaction("right").unwrap()[0])
     };
-    let (own, mean) = (reach(VolumeChange::Particle), reach(VolumeChange::Patch));
+    let (own, mean) = (reach(Averaging::None), reach(Averaging::Volume));
     assert!((own.0 / mean.0 - 1.0).abs() <= 1e-9, "{own:?} {mean:?}");
     assert!((own.1 / mean.1 - 1.0).abs() <= 1e-9, "{own:?} {mean:?}");
 }
@@ -152,6 +152,6 @@ fn uniform_stretch_is_left_alone() {
 #[test]
 fn plane_stress_is_refused() {
     let mut scene = beam(Plane::Stress { thickness: 1.0 }, 0.3, 1.0);
-    let refused = solver(VolumeChange::Patch, 1e-6).step(&mut scene, 1.0);
+    let refused = solver(Averaging::Volume, 1e-6).step(&mut scene, 1.0);
     assert!(matches!(refused, Err(SolveError::Unsupported { .. })));
 }

@@ -2,6 +2,9 @@
 
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
+mod embedded;
 mod implex;
 mod locking;
+mod one_strain;
 mod snap_back;
+mod tiny_toughness;

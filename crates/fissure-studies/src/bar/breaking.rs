@@ -11,7 +11,7 @@ use fissure_study::{Measures, Parameters, SimulationRow, StudyError};
 use super::exact::Exact;
 use super::history::History;
 use super::specimen::{BODY, Bar};
-use crate::method::Method;
+use crate::method::{Chosen, Method};
 
 /// Where a run ends, over the critical opening.
 const END: f64 = 1.25;
@@ -80,55 +80,125 @@ pub(crate) fn run_length(bar: &Bar, case: &Parameters) -> Result<f64, StudyError
 pub(crate) fn break_bar(
     bar: &Bar,
     case: &Parameters,
-    mut frames: Option<&mut dyn Watch<2>>,
+    frames: Option<&mut dyn Watch<2>>,
 ) -> Result<Finished, StudyError> {
     let method = Method::of(case)?;
-    let loading = Loading::new(bar, case, &method)?;
-    let grid = bar.grid()?;
-    let mut scene = bar.scene(&grid, move |t| loading.at(t))?;
+    let pull = Pull::new(bar, case, &method)?;
     let band = match case.choice("band")? {
         "particle" => BandSource::Particle,
         _ => BandSource::Discretisation,
     };
-    let band_width = method.band_width(band, &grid, &scene, &bar.axis());
-    let mut solver = method.build(grid, band, loading.end)?;
-    let mut progress = Progress::new(loading.end, &case.label()).every(PROGRESS);
-    let start = Instant::now();
-    let mut history = History::at_rest();
-    let mut elongation = 0.0;
-    let mut stopped = None;
-    while scene.time() < loading.end {
-        let report = match solver.step(&mut scene, loading.end) {
-            Ok(report) => report,
-            // A snap that controlled elongation cannot follow: a result, not the study's failure.
-            Err(stop @ (SolveError::NoConvergence { .. } | SolveError::Singular { .. })) => {
-                stopped = Some(stop.to_string());
-                break;
-            }
-            Err(error) => {
-                let doing = format!("running {}", case.label());
-                return Err(StudyError::failed(doing)(error));
-            }
-        };
-        elongation += loading.at(report.time) * report.dt;
-        let (energy, load) = (scene.energy(), load(&scene, &bar.axis()));
-        history.push(elongation, load, energy.stored, energy.dissipated);
-        let watched = match &mut frames {
-            Some(frames) => frames.after(&scene, &report),
-            None => Ok(()),
-        };
-        watched
-            .and_then(|()| progress.after(&scene, &report))
-            .map_err(StudyError::failed("watching the run"))?;
+    let band_width = method.band_width(band, &pull.grid, &pull.scene, &bar.axis());
+    let grid = pull.grid.clone();
+    let mut solver = match case.choice("strain")? {
+        "cell" => one_strain(&method, grid, case, band, pull.end())?,
+        _ => method.build(grid, band, pull.end())?,
+    };
+    let mut finished = pull.break_with(&mut *solver, case, &bar.axis(), frames)?;
+    finished.band_width = band_width;
+    Ok(finished)
+}
+
+/// The quasi-static solver with one strain per cell.
+fn one_strain(
+    method: &Method,
+    grid: Grid<2>,
+    case: &Parameters,
+    band: BandSource,
+    end: f64,
+) -> Result<Box<dyn Solver<2>>, StudyError> {
+    if method.is_dynamic() {
+        let reason = "cells have one strain in quasi-static runs only";
+        return Err(StudyError::combination(
+            case,
+            &["solver", "strain"],
+            reason,
+        ));
     }
-    let wall_s = start.elapsed().as_secs_f64();
-    Ok(Finished {
-        history,
-        scene,
-        wall_s,
-        band_width,
-        stopped,
-    })
+    let hourglass = case.number("hourglass")?;
+    let settings = QuasiStaticSettings {
+        step: end / method.steps as f64,
+        tolerance: method.tolerance,
+        band,
+        averaging: Averaging::Strain { hourglass },
+        ..QuasiStaticSettings::default()
+    };
+    method.build_with(grid, Chosen::QuasiStatic(settings))
+}
+
+/// A bar between its grips, and how they move.
+pub(crate) struct Pull {
+    pub grid: Grid<2>,
+    pub scene: Scene<2>,
+    loading: Loading,
+}
+
+impl Pull {
+    pub(crate) fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
+        let loading = Loading::new(bar, case, method)?;
+        let grid = bar.grid()?;
+        let scene = bar.scene(&grid, move |t| loading.at(t))?;
+        Ok(Self {
+            grid,
+            scene,
+            loading,
+        })
+    }
+
+    /// When the run ends, s.
+    pub(crate) fn end(&self) -> f64 {
+        self.loading.end
+    }
+
+    /// Pulls to the end, or to where the solver finds no equilibrium.
+    pub(crate) fn break_with(
+        self,
+        solver: &mut dyn Solver<2>,
+        case: &Parameters,
+        axis: &Vector2<f64>,
+        mut frames: Option<&mut dyn Watch<2>>,
+    ) -> Result<Finished, StudyError> {
+        let Self {
+            mut scene, loading, ..
+        } = self;
+        let mut progress = Progress::new(loading.end, &case.label()).every(PROGRESS);
+        let start = Instant::now();
+        let mut history = History::at_rest();
+        let mut elongation = 0.0;
+        let mut stopped = None;
+        while scene.time() < loading.end {
+            let report = match solver.step(&mut scene, loading.end) {
+                Ok(report) => report,
+                // A snap that controlled elongation cannot follow: a result, not the study's failure.
+                Err(stop @ (SolveError::NoConvergence { .. } | SolveError::Singular { .. })) => {
+                    stopped = Some(stop.to_string());
+                    break;
+                }
+                Err(error) => {
+                    let doing = format!("running {}", case.label());
+                    return Err(StudyError::failed(doing)(error));
+                }
+            };
+            elongation += loading.at(report.time) * report.dt;
+            let (energy, load) = (scene.energy(), load(&scene, axis));
+            history.push(elongation, load, energy.stored, energy.dissipated);
+            let watched = match &mut frames {
+                Some(frames) => frames.after(&scene, &report),
+                None => Ok(()),
+            };
+            watched
+                .and_then(|()| progress.after(&scene, &report))
+                .map_err(StudyError::failed("watching the run"))?;
+        }
+        let wall_s = start.elapsed().as_secs_f64();
+        Ok(Finished {
+            history,
+            scene,
+            wall_s,
+            band_width: f64::NAN,
+            stopped,
+        })
+    }
 }
 
 /// Mean of what both grips pull with, N: a wave that is on its way from one to the other drops out.
@@ -148,6 +218,23 @@ pub(crate) fn row(
     case: &Parameters,
     finished: &Finished,
 ) -> Result<SimulationRow, StudyError> {
+    let critical = bar.exact().critical_opening();
+    let failed = FailedZone::of(&finished.scene, BODY, "opening", 0.5 * critical)
+        .map_err(StudyError::failed("measuring the failed zone"))?;
+    let mut row = measured(study, bar, case, finished);
+    let cells = failed.volume / (bar.exact().area * bar.spacing);
+    row.values.insert("failed_zone_cells", cells);
+    row.values.insert("band", finished.band_width);
+    Ok(row)
+}
+
+/// The same without what only a law that cracks can tell.
+pub(crate) fn measured(
+    study: &str,
+    bar: &Bar,
+    case: &Parameters,
+    finished: &Finished,
+) -> SimulationRow {
     let (exact, nominal) = (bar.exact(), bar.nominal());
     let (scene, history) = (&finished.scene, &finished.history);
     // A run that stopped early has no error of the whole curve: NaN, and no bound holds for it.
@@ -160,8 +247,6 @@ pub(crate) fn row(
         let error = history.curve.error(load, (0.0, end), &kinks);
         error.unwrap_or(f64::NAN)
     };
-    let failed = FailedZone::of(scene, BODY, "opening", 0.5 * exact.critical_opening())
-        .map_err(StudyError::failed("measuring the failed zone"))?;
     let relative = |value: f64, reference: f64| (value / reference - 1.0).abs();
     let balance = EnergyBalance::of(scene.energy());
     // Halfway down, and where the load has gone in the exact solution.
@@ -187,10 +272,6 @@ pub(crate) fn row(
         .with("energy_imbalance", balance.energy_imbalance().abs())
         .with("worst_balance", balance.worst_balance)
         .with("transfer_loss", balance.transfer_loss / exact.energy())
-        .with(
-            "failed_zone_cells",
-            failed.volume / (exact.area * bar.spacing),
-        )
         .with("middle_load", at(middle) / exact.load(middle))
         .with(
             "late_load",
@@ -199,8 +280,7 @@ pub(crate) fn row(
         .with("peak_load", history.curve.peak())
         .with("work", history.curve.work())
         .with("reached", reached)
-        .with("band", finished.band_width)
         .with("load_l2_nominal", load_error(&nominal));
     row.state_hash = state_hash(scene);
-    Ok(row)
+    row
 }

@@ -8,7 +8,7 @@ mod specimen;
 
 use fissure_study::{Parameter, Permitted};
 
-pub(crate) use breaking::{Finished, break_bar, load, row, run_length};
+pub(crate) use breaking::{Finished, Pull, break_bar, load, measured, row, run_length};
 pub(crate) use exact::Exact;
 pub(crate) use history::{History, Thinned};
 pub(crate) use specimen::{BODY, Bar, OFFSETS};
@@ -95,6 +95,19 @@ fn material() -> Vec<Parameter> {
                 "damaged-shear",
                 "rotating",
             ],
+        ),
+        Parameter::choice(
+            "strain",
+            "of each particle by its own place, or one for all of a cell (quasi-static)",
+            "particle",
+            &["particle", "cell"],
+        ),
+        Parameter::number(
+            "hourglass",
+            "stiffness against what a cell's one strain does not see, over that of the material",
+            "1",
+            0.1,
+            Permitted::at_least(0.0),
         ),
         Parameter::choice(
             "band",

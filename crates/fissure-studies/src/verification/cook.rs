@@ -144,10 +144,10 @@ impl Problem for Cook {
         let settings = QuasiStaticSettings {
             step: 1.0 / method.steps as f64,
             tolerance: method.tolerance,
-            volume: if patch {
-                VolumeChange::Patch
+            averaging: if patch {
+                Averaging::Volume
             } else {
-                VolumeChange::Particle
+                Averaging::None
             },
             ..QuasiStaticSettings::default()
         };

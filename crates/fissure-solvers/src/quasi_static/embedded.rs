@@ -1,0 +1,468 @@
+//! A crack as a discontinuity embedded in cells [Sanchez 2010, sec. 5.5.4; Jirasek 2000].
+//!
+//! The crack is a straight line with the normal `n`, given from the start. A cell whose nodes lie on both sides of it has a
+//! jump `w` of its own, constant in the cell, and its particles are displaced by
+//!
+//! ```text
+//! u(x) = Σ_i u_i N_i(x) + (H(x) − φ(x)) w,   φ = Σ_{i on the side of n} N_i                 [eqs 5.5.60-5.5.62]
+//! ∇u = Σ_i u_i ⊗ ∇N_i − w ⊗ ∇φ                                                             [eq. 5.5.70]
+//! ```
+//!
+//! so that nodes beyond the crack count as `u_i − w`: halves that move apart without a strain strain no particle, wherever
+//! the line runs. That holds because which nodes lie beyond is told from the one line and not cell by cell. Nodes feel the
+//! particles' stresses by `∇N`, as ever. What is left is the traction on the crack, `t(w)` by a cohesive law:
+//!
+//! - *Optimal* (statically and kinematically optimal, not symmetric): `t(w) = Σ V σ·n/Σ V`, the mean over the cell's
+//!   particles. The tangent is not symmetric, since `w` acts by `∇φ` and answers to `n`.
+//! - *Local*, as the document has it: `t` is the traction of an elastic-decohesive point in the middle `X_e` of the crack's
+//!   piece `ℓ_e` in the cell, that smears its opening over `L_c = Ω_e/ℓ_e` [eq. 5.5.68]. Its elastic strain is
+//!   `(Σ u_i ⊗ ∇N_i(X_e) − w ⊗ n/L_c)^S`, small, while particles have the one above. The opening is along `n`. Where
+//!   the line cuts off a corner `ℓ_e` is small and `L_c` beyond the limit of eq. 4.5.17.
+//!
+//! Energies of the crack are those of the law times `A = n·Σ V ∇φ`, which sums to the section of the body.
+
+use std::collections::BTreeMap;
+
+use fissure_grid::{Grid, SUMS};
+use fissure_materials::{
+    Cohesive, Isotropic, Jump, Tangent, Traction, TractionSeparation, TractionSeparationState,
+};
+use fissure_scene::{Scene, SolveError, SweepTotals};
+use nalgebra::{SMatrix, SVector, Vector2, Vector3};
+
+use crate::equilibrium::links::{Cut, Links};
+use crate::equilibrium::stiffness::{PatchRates, patch_rates};
+use crate::equilibrium::system::Block;
+use crate::nodes::NodeSums;
+use crate::placement::Placement;
+
+/// Which traction opens the crack of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EmbeddedForm {
+    /// The mean of the cell's particles.
+    Optimal,
+    /// That of a point with these constants in the middle of the crack's piece, as the document has it.
+    Local(Isotropic),
+}
+
+/// A crack embedded in the cells that a straight line crosses, bonded until its law opens it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmbeddedCrack {
+    /// A point of the line, m.
+    pub point: [f64; 2],
+    /// Its normal; need not be of unit length.
+    pub normal: [f64; 2],
+    /// Traction over jump. Its stiffness also presses shut faces apart.
+    pub law: TractionSeparation,
+    /// What opens it.
+    pub form: EmbeddedForm,
+}
+
+/// The crack in one cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmbeddedJump {
+    /// Corner of the cell with the least coordinates, m.
+    pub corner: [f64; 2],
+    /// Displacement of the side of the normal against the other, m.
+    pub jump: [f64; 2],
+    /// Energy dissipated over toughness.
+    pub dissipated_fraction: f64,
+    /// Area, m².
+    pub area: f64,
+}
+
+/// What a cell's crack has been through.
+#[derive(Clone, Copy, Debug)]
+struct History<const D: usize> {
+    jump: SVector<f64, D>,
+    /// Gradient of the nodes' displacements at the middle of the crack's piece (local form).
+    gradient: SMatrix<f64, D, D>,
+    law: TractionSeparationState,
+    area: f64,
+}
+
+impl<const D: usize> Default for History<D> {
+    fn default() -> Self {
+        Self {
+            jump: SVector::zeros(),
+            gradient: SMatrix::zeros(),
+            law: TractionSeparationState::default(),
+            area: 0.0,
+        }
+    }
+}
+
+/// The embedded crack of a solver.
+pub(super) struct Embedded<const D: usize> {
+    crack: EmbeddedCrack,
+    normal: SVector<f64, D>,
+    /// By the corner of the cell.
+    histories: BTreeMap<[i32; D], History<D>>,
+    /// One for each cut, in the step.
+    cells: Vec<Cell<D>>,
+}
+
+/// A cut in a step.
+struct Cell<const D: usize> {
+    corner: [i32; D],
+    before: History<D>,
+    after: History<D>,
+    /// `Σ V`, m³.
+    volume: f64,
+    /// Gradients of the nodes at the middle of the crack's piece, and `L_c`, m (local form).
+    middle: Vec<SVector<f64, D>>,
+    width: f64,
+    /// Derivative of the traction of the law with the jump, Pa/m.
+    tangent: SMatrix<f64, D, D>,
+}
+
+impl<const D: usize> Embedded<D> {
+    pub(super) fn new(crack: EmbeddedCrack) -> Result<Self, SolveError> {
+        let length = Vector2::from(crack.normal).norm();
+        if !(length > 0.0 && length.is_finite() && D == 2) {
+            return Err(SolveError::Setting {
+                setting: "normal of the embedded crack",
+                value: length,
+                permitted: "finite, not zero",
+            });
+        }
+        crack
+            .law
+            .check()
+            .map_err(|_| SolveError::Unsupported { what: "an embedded crack with a law outside its range" })?;
+        Ok(Self {
+            crack,
+            normal: SVector::from_fn(|axis, _| crack.normal[axis.min(1)] / length),
+            histories: BTreeMap::new(),
+            cells: Vec::new(),
+        })
+    }
+
+    /// On which side nodes are.
+    pub(super) fn sides(&self, grid: &Grid<D>, placement: &Placement<D>) -> Vec<bool> {
+        let point = SVector::<f64, D>::from_fn(|axis, _| self.crack.point[axis.min(1)]);
+        (0..placement.node_count())
+            .map(|node| (placement.node_position(grid, node) - point).dot(&self.normal) >= 0.0)
+            .collect()
+    }
+
+    /// Begins a step.
+    pub(super) fn begin(
+        &mut self,
+        links: &Links<D>,
+        scene: &Scene<D>,
+        grid: &Grid<D>,
+        placement: &Placement<D>,
+    ) {
+        self.cells.clear();
+        for cut in &links.cuts {
+            let corners = cut.nodes.iter();
+            let places = corners.map(|&(node, _)| placement.node_position(grid, node as usize));
+            let places: Vec<SVector<f64, D>> = places.collect();
+            let low = places.iter().fold(places[0], |low, x| low.inf(x));
+            let corner = std::array::from_fn(|axis| {
+                ((low[axis] - grid.origin()[axis]) / grid.spacing()).round() as i32
+            });
+            let mut before = self.histories.get(&corner).copied().unwrap_or_default();
+            let (mut volume, mut area) = (0.0, 0.0);
+            let patch = links.patch(cut.patch);
+            for member in patch.members {
+                let particles = scene.bodies()[member.body as usize].particles();
+                let row = member.index as usize;
+                let here = particles.volume[row]
+                    * particles.motion.deformation_gradient[row].determinant();
+                volume += here;
+                let beyond = patch.links(member).iter().zip(&cut.nodes);
+                let slope = beyond.filter(|(_, node)| node.1);
+                area += slope
+                    .map(|(link, _)| here * link.gradient.dot(&self.normal))
+                    .sum::<f64>();
+            }
+            before.area = area;
+            let (middle, width) = self.middle(&low, &places, grid.spacing());
+            self.cells.push(Cell {
+                corner,
+                before,
+                after: before,
+                volume,
+                middle,
+                width,
+                tangent: SMatrix::zeros(),
+            });
+        }
+    }
+
+    /// Gradients of a cell's nodes at the middle of the crack's piece in it, and the width `L_c`, m.
+    fn middle(
+        &self,
+        low: &SVector<f64, D>,
+        places: &[SVector<f64, D>],
+        h: f64,
+    ) -> (Vec<SVector<f64, D>>, f64) {
+        let point = Vector2::from(self.crack.point);
+        let along = Vector2::new(-self.normal[1], self.normal[0]);
+        let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..2 {
+            if along[axis] != 0.0 {
+                let a = (low[axis] - point[axis]) / along[axis];
+                let b = (low[axis] + h - point[axis]) / along[axis];
+                (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+            }
+        }
+        let middle = point + along * (0.5 * (from + to));
+        let local: [f64; 2] = std::array::from_fn(|axis| (middle[axis] - low[axis]) / h);
+        let gradients = places.iter().map(|place| {
+            let upper: [bool; 2] = std::array::from_fn(|axis| place[axis] > low[axis] + 0.5 * h);
+            let weight = |axis: usize| {
+                if upper[axis] {
+                    local[axis]
+                } else {
+                    1.0 - local[axis]
+                }
+            };
+            let slope = |axis: usize| if upper[axis] { 1.0 / h } else { -1.0 / h };
+            SVector::from_fn(|axis, _| match axis {
+                0 => slope(0) * weight(1),
+                1 => slope(1) * weight(0),
+                _ => 0.0,
+            })
+        });
+        (gradients.collect(), h * h / (to - from).max(f64::MIN_POSITIVE))
+    }
+
+    /// Adds what drives the jumps to the forces, and the energies of the crack.
+    pub(super) fn add(
+        &mut self,
+        links: &Links<D>,
+        scene: &Scene<D>,
+        displacement: &[SVector<f64, D>],
+        sums: &NodeSums<D>,
+    ) -> Result<(), SolveError> {
+        let normal = self.normal;
+        for (cut, cell) in links.cuts.iter().zip(&mut self.cells) {
+            let change = displacement[cut.node as usize];
+            cell.after = cell.before;
+            cell.after.jump += change;
+            let answer = answer(&self.crack.law, &cell.after.jump, &normal, &cell.before.law)
+                .map_err(|_| SolveError::Unsupported { what: "a jump that is not finite" })?;
+            cell.after.law = answer.state;
+            cell.tangent = SMatrix::from_fn(|i, j| answer.tangent[(i, j)]);
+            let resisting = SVector::<f64, D>::from_fn(|axis, _| answer.traction[axis]);
+            let pull = match self.crack.form {
+                EmbeddedForm::Optimal => mean_traction(links, cut, scene, &normal),
+                EmbeddedForm::Local(elastic) => {
+                    let nodes = cut.nodes.iter().zip(&cell.middle);
+                    for (&(node, _), gradient) in nodes {
+                        cell.after.gradient += displacement[node as usize] * gradient.transpose();
+                    }
+                    let opening = normal * (normal.dot(&cell.after.jump) / cell.width);
+                    let elastic_part = cell.after.gradient - opening * normal.transpose();
+                    let traction = traction(&elastic, &elastic_part, &normal);
+                    // Sliding meets the stiffness of the law alone.
+                    normal * normal.dot(&traction)
+                }
+            };
+            let force = (pull - resisting) * cell.before.area;
+            let mut numbers = [0.0; SUMS];
+            numbers[NodeSums::<D>::FORCE..NodeSums::<D>::FORCE + D]
+                .copy_from_slice(force.as_slice());
+            sums.add(cut.node as usize, &numbers);
+        }
+        Ok(())
+    }
+
+    /// Energy that the crack has dissipated since the start of the step, and what it stores, J.
+    pub(super) fn energies(&self, totals: &mut SweepTotals) {
+        let law = &self.crack.law;
+        for cell in &self.cells {
+            let area = cell.before.area;
+            let spent = cell.after.law.dissipated_fraction - cell.before.law.dissipated_fraction;
+            totals.dissipated += area * law.toughness * spent;
+            // The old state is the new one: nothing is dissipated twice.
+            if let Ok(now) = answer(law, &cell.after.jump, &self.normal, &cell.after.law) {
+                totals.stored += area * now.stored;
+            }
+        }
+    }
+
+    /// Rows and columns of the jumps in the stiffness.
+    pub(super) fn blocks(
+        &self,
+        links: &Links<D>,
+        scene: &Scene<D>,
+        tangents: &[Vec<Tangent>],
+    ) -> Vec<Block<D>> {
+        let mut blocks = Vec::new();
+        let normal = self.normal;
+        for (cut, cell) in links.cuts.iter().zip(&self.cells) {
+            let patch = links.patch(cut.patch);
+            let PatchRates { forces, tractions } = patch_rates(&patch, scene, tangents, &normal);
+            let count = patch.nodes.len();
+            let own = cut.number as usize;
+            let area = cell.before.area;
+            let mut of_jump = cell.tangent * area;
+            for (place, &node) in patch.nodes.iter().enumerate() {
+                let node = node as usize;
+                // Nodes beyond count as u − w.
+                let mut by_jump = SMatrix::zeros();
+                for (other, &(_, beyond)) in cut.nodes.iter().enumerate() {
+                    if beyond {
+                        by_jump -= forces[place * count + other];
+                    }
+                }
+                blocks.push(Block {
+                    row: node,
+                    column: own,
+                    block: by_jump,
+                });
+                let by_node = match self.crack.form {
+                    EmbeddedForm::Optimal => {
+                        let rate = tractions[place] * (area / cell.volume);
+                        if cut.nodes[place].1 {
+                            of_jump += rate;
+                        }
+                        -rate
+                    }
+                    EmbeddedForm::Local(elastic) => {
+                        let rate: [SVector<f64, D>; D] = std::array::from_fn(|axis| {
+                            let mut unit = SVector::<f64, D>::zeros();
+                            unit[axis] = 1.0;
+                            let gradient = unit * cell.middle[place].transpose();
+                            traction(&elastic, &gradient, &normal)
+                        });
+                        normal * normal.transpose() * SMatrix::from_columns(&rate) * -area
+                    }
+                };
+                blocks.push(Block {
+                    row: own,
+                    column: node,
+                    block: by_node,
+                });
+            }
+            if let EmbeddedForm::Local(elastic) = self.crack.form {
+                let across = normal * normal.transpose();
+                of_jump += across * (area * elastic.p_wave_modulus() / cell.width);
+            }
+            blocks.push(Block {
+                row: own,
+                column: own,
+                block: of_jump,
+            });
+        }
+        blocks
+    }
+
+    /// Takes up an accepted step.
+    pub(super) fn keep(&mut self) {
+        for cell in &self.cells {
+            self.histories.insert(cell.corner, cell.after);
+        }
+    }
+
+    /// The crack cell by cell.
+    pub(super) fn jumps(&self, grid: &Grid<D>) -> Vec<EmbeddedJump> {
+        let corner = |cell: &[i32; D]| {
+            std::array::from_fn(|axis| {
+                let axis = axis.min(D - 1);
+                grid.origin()[axis] + grid.spacing() * f64::from(cell[axis])
+            })
+        };
+        let histories = self.histories.iter();
+        histories
+            .map(|(cell, history)| EmbeddedJump {
+                corner: corner(cell),
+                jump: std::array::from_fn(|axis| history.jump[axis.min(D - 1)]),
+                dissipated_fraction: history.law.dissipated_fraction,
+                area: history.area,
+            })
+            .collect()
+    }
+
+    /// What a restarted run needs.
+    pub(super) fn memory(&self) -> Vec<f64> {
+        let mut memory = vec![self.histories.len() as f64];
+        for (corner, history) in &self.histories {
+            memory.extend(corner.iter().map(|&i| f64::from(i)));
+            memory.extend(history.jump.iter());
+            memory.extend(history.gradient.iter());
+            let law = &history.law;
+            memory.extend([law.largest, law.dissipated_fraction]);
+            memory.push(f64::from(u8::from(law.failed)));
+            memory.push(history.area);
+        }
+        memory
+    }
+
+    /// Takes back what [`memory`](Self::memory) gave.
+    pub(super) fn recall(&mut self, memory: &[f64]) {
+        self.histories.clear();
+        let rest = memory.get(1..).unwrap_or(&[]);
+        for entry in rest.chunks_exact(2 * D + D * D + 4) {
+            let (corner, entry) = entry.split_at(D);
+            let (jump, entry) = entry.split_at(D);
+            let (gradient, entry) = entry.split_at(D * D);
+            let history = History {
+                jump: SVector::from_column_slice(jump),
+                gradient: SMatrix::from_column_slice(gradient),
+                law: TractionSeparationState {
+                    largest: entry[0],
+                    dissipated_fraction: entry[1],
+                    failed: entry[2] != 0.0,
+                },
+                area: entry[3],
+            };
+            let corner = std::array::from_fn(|axis| corner[axis] as i32);
+            self.histories.insert(corner, history);
+        }
+    }
+}
+
+/// The law's answer to a jump, with its stiffness against faces that overlap.
+fn answer<const D: usize>(
+    law: &TractionSeparation,
+    jump: &SVector<f64, D>,
+    normal: &SVector<f64, D>,
+    old: &TractionSeparationState,
+) -> Result<Traction<TractionSeparationState>, fissure_materials::MaterialError> {
+    let in_space = |v: &SVector<f64, D>| Vector3::from_fn(|axis, _| if axis < D { v[axis] } else { 0.0 });
+    let (opening, normal) = (in_space(jump), in_space(normal));
+    let mut answer = law.update(&Jump::new(opening, normal), old)?;
+    let gap = opening.dot(&normal);
+    if gap <= 0.0 {
+        answer.traction += normal * (law.stiffness * gap);
+        answer.tangent += normal * normal.transpose() * law.stiffness;
+        answer.stored += 0.5 * law.stiffness * gap * gap;
+    }
+    Ok(answer)
+}
+
+/// Traction of the elastic strain `sym(gradient)` across a normal, Pa.
+fn traction<const D: usize>(
+    elastic: &Isotropic,
+    gradient: &SMatrix<f64, D, D>,
+    normal: &SVector<f64, D>,
+) -> SVector<f64, D> {
+    let shear = elastic.shear_modulus();
+    let lambda = elastic.p_wave_modulus() - 2.0 * shear;
+    normal * (lambda * gradient.trace()) + (gradient + gradient.transpose()) * normal * shear
+}
+
+/// Mean traction of the particles of a cell, Pa.
+fn mean_traction<const D: usize>(
+    links: &Links<D>,
+    cut: &Cut,
+    scene: &Scene<D>,
+    normal: &SVector<f64, D>,
+) -> SVector<f64, D> {
+    let (mut sum, mut volumes) = (SVector::zeros(), 0.0);
+    for member in links.patch(cut.patch).members {
+        let particles = scene.bodies()[member.body as usize].particles();
+        let row = member.index as usize;
+        let volume =
+            particles.volume[row] * particles.trial.deformation_gradient[row].determinant();
+        let stress = particles.trial.stress[row].to_matrix();
+        sum += SMatrix::<f64, D, D>::from_fn(|i, j| stress[(i, j)]) * normal * volume;
+        volumes += volume;
+    }
+    sum / volumes
+}
