@@ -173,14 +173,7 @@ impl Method {
         grid: Grid<2>,
         chosen: Chosen,
     ) -> Result<Box<dyn Solver<2>>, StudyError> {
-        let built = match self.shape.as_str() {
-            "gimp" => chosen.build(grid, shape::Gimp),
-            "cpdi" => chosen.build(grid, shape::Cpdi),
-            "bspline2" => chosen.build(grid, shape::Bspline2),
-            "bspline3" => chosen.build(grid, shape::Bspline3),
-            _ => chosen.build(grid, shape::Linear),
-        };
-        built.map_err(StudyError::failed("setting up the solver"))
+        chosen.on(grid, &self.shape)
     }
 
     /// Width over which the first body of a scene smears a crack of this normal, m.
@@ -215,6 +208,21 @@ pub enum Chosen {
 }
 
 impl Chosen {
+    /// The solver with these settings on a grid, with the shape function of this name in [`SHAPES`].
+    ///
+    /// # Errors
+    /// A setting outside its range.
+    pub fn on(self, grid: Grid<2>, name: &str) -> Result<Box<dyn Solver<2>>, StudyError> {
+        let built = match name {
+            "gimp" => self.build(grid, shape::Gimp),
+            "cpdi" => self.build(grid, shape::Cpdi),
+            "bspline2" => self.build(grid, shape::Bspline2),
+            "bspline3" => self.build(grid, shape::Bspline3),
+            _ => self.build(grid, shape::Linear),
+        };
+        built.map_err(StudyError::failed("setting up the solver"))
+    }
+
     fn build<S: Shape<2>>(self, grid: Grid<2>, shape: S) -> Result<Box<dyn Solver<2>>, SolveError> {
         Ok(match self {
             Self::Explicit(settings) => Box::new(Explicit::new(grid, shape, settings)?),

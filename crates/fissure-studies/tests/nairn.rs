@@ -136,6 +136,23 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
         "{}",
         rows[0]
     );
+    // In equilibrium onset asks for less than under a pull that goes on while the process zone grows.
+    let still = number(&rows[1], "values", "far_j_at_onset");
+    assert!(still > 1.5 && still < 3.0, "{}", rows[1]);
+    assert_at_most(&rows[1], "values", &[("energy_imbalance", 0.01)]);
+}
+
+#[test]
+fn without_scatter_the_strength_of_a_block_does_not_depend_on_the_grid() {
+    let set = ["field=uncorrelated", "deviation=1e-4", "samples=2"];
+    let mut arguments = vec!["--quick"];
+    arguments.extend(set.iter().flat_map(|set| ["--set", *set]));
+    let rows = rows("random-block", &arguments);
+    let strength = |i: usize| number(&rows[i], "values", "mean_over_nominal");
+    // What the plate holds, h/length of the block, was missing: 10 % on the coarse grid.
+    for i in 0..2 {
+        assert!((strength(i) - 1.0).abs() < 0.035, "{}", rows[i]);
+    }
 }
 
 #[test]

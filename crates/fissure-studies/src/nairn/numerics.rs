@@ -5,22 +5,15 @@ use std::thread::available_parallelism;
 use fissure::prelude::*;
 use fissure_study::{Parameter, Parameters, Permitted, StudyError};
 
+use crate::method::{Chosen, SHAPES};
+
 /// Shape functions, transfer, band and step of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Numerics {
-    shape: Functions,
+    shape: &'static str,
     pub settings: ExplicitSettings,
     pub spacing: f64,
     threads: usize,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Functions {
-    Linear,
-    Gimp,
-    Cpdi,
-    Bspline2,
-    Bspline3,
 }
 
 impl Numerics {
@@ -29,12 +22,7 @@ impl Numerics {
         let threads = available_parallelism().map_or(1, |n| n.get() as u64);
         vec![
             Parameter::number("h", "grid spacing", "m", h, Permitted::above(0.0)),
-            Parameter::choice(
-                "shape",
-                "shape function",
-                "gimp",
-                &["linear", "gimp", "cpdi", "bspline2", "bspline3"],
-            ),
+            Parameter::choice("shape", "shape function", "gimp", SHAPES),
             Parameter::choice(
                 "transfer",
                 "between particles and grid",
@@ -98,13 +86,7 @@ impl Numerics {
             ..ExplicitSettings::default()
         };
         Ok(Self {
-            shape: match case.choice("shape")? {
-                "linear" => Functions::Linear,
-                "cpdi" => Functions::Cpdi,
-                "bspline2" => Functions::Bspline2,
-                "bspline3" => Functions::Bspline3,
-                _ => Functions::Gimp,
-            },
+            shape: shape_named(case.choice("shape")?),
             settings,
             spacing: case.number("h")?,
             threads: case.size("threads")?,
@@ -113,15 +95,17 @@ impl Numerics {
 
     /// An explicit solver on this grid, in the plane.
     pub(super) fn solver(&self, grid: Grid<2>) -> Result<Box<dyn Solver<2>>, StudyError> {
-        let settings = self.settings;
-        let made: Result<Box<dyn Solver<2>>, _> = match self.shape {
-            Functions::Linear => boxed(Explicit::new(grid, shape::Linear, settings)),
-            Functions::Gimp => boxed(Explicit::new(grid, shape::Gimp, settings)),
-            Functions::Cpdi => boxed(Explicit::new(grid, shape::Cpdi, settings)),
-            Functions::Bspline2 => boxed(Explicit::new(grid, shape::Bspline2, settings)),
-            Functions::Bspline3 => boxed(Explicit::new(grid, shape::Bspline3, settings)),
-        };
-        made.map_err(StudyError::failed("setting up the solver"))
+        Chosen::Explicit(self.settings).on(grid, self.shape)
+    }
+
+    /// A quasi-static solver on this grid, in the plane, with the band of these numerics.
+    pub(super) fn equilibrium(
+        &self,
+        grid: Grid<2>,
+        settings: QuasiStaticSettings,
+    ) -> Result<Box<dyn Solver<2>>, StudyError> {
+        let band = self.settings.band;
+        Chosen::QuasiStatic(QuasiStaticSettings { band, ..settings }).on(grid, self.shape)
     }
 
     /// The same in space, for the shapes that the studies use there: each is code of its own to
@@ -133,8 +117,8 @@ impl Numerics {
     ) -> Result<Box<dyn Solver<3>>, StudyError> {
         let settings = self.settings;
         let made: Result<Box<dyn Solver<3>>, _> = match self.shape {
-            Functions::Gimp => boxed(Explicit::new(grid, shape::Gimp, settings)),
-            Functions::Bspline2 => boxed(Explicit::new(grid, shape::Bspline2, settings)),
+            "gimp" => boxed(Explicit::new(grid, shape::Gimp, settings)),
+            "bspline2" => boxed(Explicit::new(grid, shape::Bspline2, settings)),
             _ => {
                 return Err(StudyError::combination(
                     case,
@@ -157,6 +141,14 @@ impl Numerics {
             .map_err(StudyError::failed("starting the worker threads"))?
             .install(work)
     }
+}
+
+/// The name among [`SHAPES`].
+fn shape_named(name: &str) -> &'static str {
+    SHAPES
+        .iter()
+        .find(|shape| **shape == name)
+        .unwrap_or(&SHAPES[0])
 }
 
 fn boxed<const D: usize, S: Solver<D> + 'static>(

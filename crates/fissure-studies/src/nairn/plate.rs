@@ -107,6 +107,18 @@ impl Plate {
         self.strength
     }
 
+    /// Speed of each end, m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// About how far each end goes until the release of a slender strip's energy, `E ε²/2` over its height, is the
+    /// toughness, m.
+    pub(super) fn way_at_toughness(&self) -> f64 {
+        let strain = (2.0 * self.toughness / (self.elastic.young * self.height)).sqrt();
+        0.5 * self.height * strain
+    }
+
     /// Whether geometry and loading are those of the document.
     pub(super) fn is_documents(&self) -> bool {
         (self.width, self.height, self.crack) == (0.05, 0.1, 0.025)

@@ -6,112 +6,187 @@ use fissure::diagnostics::fracture::{
 use fissure::prelude::*;
 use fissure_study::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
 
-use crate::nairn::drive::{drive, energies, row};
+use super::cost::Costs;
+use super::pictures::Pictures;
+use crate::nairn::drive::{Drive, drive, energies, row};
 use crate::nairn::failed::Places;
 use crate::nairn::many;
 use crate::nairn::numerics::{Numerics, check_whole_cells};
 use crate::nairn::plate::{BODY, Notch, Plate, THICKNESS};
 
+/// Most steps of a quasi-static run.
+const MOST_STEPS: u64 = 4000;
+/// Steps of a quasi-static run in which the plate would come to the J that its toughness is, did nothing soften.
+const RISE: f64 = 10.0;
+
+struct Finished {
+    row: SimulationRow,
+    /// Growth, m, and J far from the tip over the toughness, of a quasi-static run.
+    resistance: Vec<[f64; 2]>,
+    stopped: Option<String>,
+}
+
+/// What is seen of a run.
+#[derive(Default)]
+struct Seen {
+    costs: Costs,
+    /// s; how far the ends have then gone, m.
+    onset: Option<(f64, f64)>,
+    release: f64,
+    resistance: Vec<[f64; 2]>,
+}
+
 pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     for case in cases {
         check_whole_cells(case, &["width", "height"])?;
     }
-    many::in_order(cases, rows, pull, |rows, _, (row, stopped)| {
-        rows.row(row)?;
-        stopped.map_or(Ok(()), |reason: String| {
+    let mut pictures = Pictures::default();
+    many::in_order(cases, rows, pull, |rows, case, finished| {
+        pictures.add(case, &finished.row, &finished.resistance)?;
+        rows.row(finished.row)?;
+        finished.stopped.map_or(Ok(()), |reason| {
             rows.note(&format!("the run above stopped early: {reason}"))?;
             Ok(())
         })
-    })
+    })?;
+    pictures.finish(rows.out_dir())
 }
 
-fn pull(case: &Parameters) -> Result<(SimulationRow, Option<String>), StudyError> {
+fn pull(case: &Parameters) -> Result<Finished, StudyError> {
     let numerics = Numerics::of(case)?;
     let plate = Plate::new(case, Notch::Line)?;
-    let (end, radius) = (case.number("end")?, case.number("radius")?);
     let mut scene = plate.damaged(case, false)?;
-    let mut solver = numerics.solver(plate.grid(end)?)?;
     let places = scene
         .body(BODY)
         .map(Places::of)
         .ok_or_else(|| StudyError::failed("finding the plate")("no such body"))?;
-    let (mut rates, mut release, mut onset, mut length) =
-        (Rates::default(), f64::NAN, f64::NAN, 0.0);
-    let far = plate.measured().1;
-    let done = drive(&mut scene, solver.as_mut(), end, |scene, report| {
-        let Some(body) = scene.body(BODY) else {
-            return false;
-        };
-        // The means of ten steps.
-        if onset.is_nan() && report.step % 10 == 0 && rates.look(scene, BODY).is_err() {
-            return false;
-        }
-        let failed = places.failed(body);
-        let ahead = failed.iter().filter(|x| plate.is_ahead(x)).map(|x| x.x);
-        length = ahead.fold(f64::NAN, f64::max) - plate.crack;
-        if onset.is_nan() && length > 0.0 {
-            onset = report.time;
-            release = far_release(scene, &plate, &rates, radius).unwrap_or(f64::NAN);
-        }
-        !(length > far - plate.crack)
-    })?;
+    let still = case.choice("solver")? == "quasi-static";
+    let (seen, done) = if still {
+        follow(case, &numerics, &plate, &places, &mut scene)?
+    } else {
+        step(case, &numerics, &plate, &places, &mut scene)?
+    };
     let mut row = row("apparent-toughness", case, &scene, &done);
     row.threads = 1;
-    let area = length * THICKNESS * plate.toughness;
-    let spent = scene.energy().dissipated / area;
-    let (share, rows) = failed_share(&scene, &places, &plate, length);
+    if still {
+        row.solver = "quasi-static".to_owned();
+        row.transfer.clear();
+    }
+    let rate = seen.costs.rate(&plate);
     let zone = plate.elastic.young * plate.toughness / plate.strength().powi(2);
+    let (onset, way) = seen.onset.unwrap_or((f64::NAN, f64::NAN));
     row.values = Measures::new()
         .with("h_over_zone", plate.spacing / zone)
-        .with("onset_us", 1e6 * onset)
-        .with("length_mm", 1e3 * length)
-        .with("far_j_at_onset", release / plate.toughness)
-        .with("spent", spent)
-        .with("spent_by_failed", spent * share)
-        .with("spent_by_wake", spent * (1.0 - share))
-        .with("lost_by_transfer", scene.energy().transfer_loss / area)
-        .with("failed_rows", rows);
+        .with("onset_us", if still { f64::NAN } else { 1e6 * onset })
+        .with("onset_way_mm", 1e3 * way)
+        .with("length_mm", 1e3 * seen.costs.growth())
+        .with("far_j_at_onset", seen.release)
+        .with("spent", rate.failed + rate.wake)
+        .with("spent_by_failed", rate.failed)
+        .with("spent_by_wake", rate.wake)
+        .with("lost_by_transfer", rate.transfer)
+        .with("failed_rows", rate.rows);
+    if let Some(last) = seen.resistance.last() {
+        row.values.insert("far_j_grown", last[1]);
+    }
     row.values = energies(row.values, &scene);
-    Ok((row, done.stopped))
+    Ok(Finished {
+        row,
+        resistance: seen.resistance,
+        stopped: done.stopped,
+    })
 }
 
-/// J around the notch's tip, J/m².
-fn far_release(scene: &Scene<2>, plate: &Plate, rates: &Rates, radius: f64) -> Option<f64> {
+/// In time, with inertia.
+fn step(
+    case: &Parameters,
+    numerics: &Numerics,
+    plate: &Plate,
+    places: &Places<2>,
+    scene: &mut Scene<2>,
+) -> Result<(Seen, Drive), StudyError> {
+    let (end, radius) = (case.number("end")?, case.number("radius")?);
+    let far = case
+        .number("growth")?
+        .min(0.8 * (plate.width - plate.crack));
+    let mut solver = numerics.solver(plate.grid(end)?)?;
+    let (mut rates, mut seen) = (
+        Rates::default(),
+        Seen {
+            release: f64::NAN,
+            ..Seen::default()
+        },
+    );
+    let done = drive(scene, solver.as_mut(), end, |scene, report| {
+        // The means of ten steps.
+        let due = seen.onset.is_none() && report.step % 10 == 0;
+        if due && rates.look(scene, BODY).is_err() {
+            return false;
+        }
+        if seen.costs.look(scene, places, plate).is_some() && seen.onset.is_none() {
+            seen.onset = Some((report.time, plate.speed() * report.time));
+            seen.release = release(scene, plate, Some(&rates), radius);
+        }
+        !(seen.costs.growth() >= far)
+    })?;
+    Ok((seen, done))
+}
+
+/// In equilibrium: a step dissipates a share of what one particle takes.
+fn follow(
+    case: &Parameters,
+    numerics: &Numerics,
+    plate: &Plate,
+    places: &Places<2>,
+    scene: &mut Scene<2>,
+) -> Result<(Seen, Drive), StudyError> {
+    let radius = case.number("radius")?;
+    // Its tip has to stay within the part of the domain that has no slope.
+    let far = case.number("growth")?.min(0.45 * radius);
+    let particle = 0.5 * plate.spacing * THICKNESS * plate.toughness;
+    let settings = QuasiStaticSettings {
+        step: plate.way_at_toughness() / (RISE * plate.speed()),
+        control: LoadControl::Dissipation {
+            energy: case.number("share")? * particle,
+        },
+        tolerance: 1e-6,
+        ..QuasiStaticSettings::default()
+    };
+    let room = 20.0 * RISE * settings.step;
+    let mut solver = numerics.equilibrium(plate.grid(room)?, settings)?;
+    let mut seen = Seen {
+        release: f64::NAN,
+        ..Seen::default()
+    };
+    let done = drive(scene, solver.as_mut(), f64::INFINITY, |scene, report| {
+        if let Some(growth) = seen.costs.look(scene, places, plate) {
+            let release = release(scene, plate, None, radius);
+            seen.resistance.push([growth, release]);
+            if seen.onset.is_none() {
+                seen.onset = Some((report.time, plate.speed() * scene.load_time()));
+                seen.release = release;
+            }
+        }
+        report.step < MOST_STEPS && !(seen.costs.growth() >= far)
+    })?;
+    Ok((seen, done))
+}
+
+/// J around the notch's tip over the toughness; NaN where it cannot be measured.
+fn release(scene: &Scene<2>, plate: &Plate, rates: Option<&Rates>, radius: f64) -> f64 {
     let elastic = PlaneElastic {
         young: plate.elastic.young,
         poisson: plate.elastic.poisson,
         plane_stress: false,
     };
-    let tip = TipFrame::of(scene.cracks().first()?, End::Last);
-    let field = TipField::of(scene, BODY, &tip.position, radius, &elastic, Some(rates)).ok()?;
     let annulus = Annulus {
         inner: 0.5 * radius,
         outer: radius,
     };
-    j_integral(&field, &tip, &annulus).ok()
-}
-
-/// Share of the dissipation that particles took which have failed, and how many rows of them there are along the crack.
-fn failed_share(scene: &Scene<2>, places: &Places<2>, plate: &Plate, length: f64) -> (f64, f64) {
-    let Some(body) = scene.body(BODY) else {
-        return (f64::NAN, f64::NAN);
+    let measure = || {
+        let tip = TipFrame::of(scene.cracks().first()?, End::Last);
+        let field = TipField::of(scene, BODY, &tip.position, radius, &elastic, rates).ok()?;
+        j_integral(&field, &tip, &annulus).ok()
     };
-    let failed = body.value("failed").unwrap_or_default();
-    let energy = body.value("opening_energy").unwrap_or_default();
-    let (mut by_failed, mut all) = (0.0, 0.0);
-    for ((failed, energy), volume) in failed.iter().zip(&energy).zip(&body.particles().volume) {
-        all += volume * energy;
-        if *failed > 0.5 {
-            by_failed += volume * energy;
-        }
-    }
-    let count = places
-        .failed(body)
-        .iter()
-        .filter(|x| plate.is_ahead(x))
-        .count();
-    (
-        by_failed / all,
-        count as f64 / (length / (0.5 * plate.spacing)),
-    )
+    measure().map_or(f64::NAN, |j| j / plate.toughness)
 }

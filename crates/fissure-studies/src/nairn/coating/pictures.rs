@@ -6,6 +6,7 @@ use fissure::io::plot::{LinePlot, Style};
 use fissure_study::{Parameters, StudyError};
 
 use super::run::Finished;
+use crate::convergence::ErrorChart;
 use crate::nairn::pictures::{save, write_columns};
 
 pub(super) struct Pictures {
@@ -14,6 +15,7 @@ pub(super) struct Pictures {
     /// Name of the transfer, and the runs with it.
     groups: Vec<(String, Vec<Vec<[f64; 2]>>)>,
     end: f64,
+    times: ErrorChart,
 }
 
 impl Pictures {
@@ -23,6 +25,12 @@ impl Pictures {
             reference: reference.to_vec(),
             groups: Vec::new(),
             end: 0.0,
+            times: ErrorChart::new(
+                "Error of the count, over what is allowed, against run time",
+                "wall time [s]",
+                "largest difference of the count",
+            )
+            .scattered(),
         }
     }
 
@@ -43,6 +51,9 @@ impl Pictures {
             }
         }
         let name = format!("{label}-seed-{}", case.count("seed")?);
+        let row = &finished.row;
+        let error = row.errors.get("count").unwrap_or(f64::NAN);
+        self.times.add(&label, row.wall_s, error);
         let (strain, count) = stairs(&finished.count.cracks, self.end);
         write_columns(
             &folder.join(format!("{name}.csv")),
@@ -81,7 +92,8 @@ impl Pictures {
         }
         let (x, y) = stairs(&self.reference, self.end);
         let plot = plot.series("independent code, xpic-5", x, y, Style::Dashed);
-        save(plot, &folder.join("cracks.png"))
+        save(plot, &folder.join("cracks.png"))?;
+        self.times.save(&folder.join("error-against-time.png"))
     }
 }
 

@@ -7,12 +7,14 @@ use fissure_study::{Parameters, StudyError};
 
 use super::growth::Growth;
 use super::run::Finished;
+use crate::convergence::ErrorChart;
 use crate::nairn::pictures::{save, write_columns};
 use crate::nairn::reference::Curve;
 
 pub(super) struct Pictures {
     folder: Option<PathBuf>,
-    runs: Vec<(String, f64, Growth)>,
+    runs: Vec<(String, Growth)>,
+    times: ErrorChart,
 }
 
 impl Pictures {
@@ -20,6 +22,12 @@ impl Pictures {
         Self {
             folder: folder.map(Path::to_path_buf),
             runs: Vec::new(),
+            times: ErrorChart::new(
+                "Error of the onset (54 µs) against run time",
+                "wall time [s]",
+                "error of the onset",
+            )
+            .scattered(),
         }
     }
 
@@ -62,8 +70,10 @@ impl Pictures {
             let size = 0.5 * case.number("h")?;
             snapshot.draw("σ_yy [Pa]", (0.0, strength), size, &path)?;
         }
-        self.runs
-            .push((label, case.number("width")?, growth.clone()));
+        let row = &finished.row;
+        let error = row.errors.get("onset").unwrap_or(f64::NAN);
+        self.times.add(&label, row.wall_s, error);
+        self.runs.push((label, growth.clone()));
         Ok(())
     }
 
@@ -92,7 +102,7 @@ impl Pictures {
         let mut speed = LinePlot::new("Speed of the crack, within 2 mm of its tip")
             .x_label("time [s]")
             .y_label("speed [m/s]");
-        for (label, _, growth) in &self.runs {
+        for (label, growth) in &self.runs {
             if growth.time.is_empty() {
                 continue;
             }
@@ -113,6 +123,7 @@ impl Pictures {
                 Style::Dotted,
             );
         save(length, &folder.join("length.png"))?;
-        save(speed, &folder.join("speed.png"))
+        save(speed, &folder.join("speed.png"))?;
+        self.times.save(&folder.join("error-against-time.png"))
     }
 }

@@ -7,6 +7,7 @@ use fissure_study::{Parameters, StudyError};
 
 use super::bar::Bar;
 use super::run::{Finished, reference};
+use crate::convergence::ErrorChart;
 use crate::nairn::numerics::Numerics;
 use crate::nairn::pictures::{ROWS, save, thinned, write_columns};
 use crate::nairn::reference::Curve;
@@ -15,6 +16,7 @@ pub(super) struct Pictures {
     folder: Option<PathBuf>,
     curves: Vec<(String, String, Vec<f64>, Vec<f64>)>,
     references: Vec<(String, Vec<f64>, Vec<f64>)>,
+    times: ErrorChart,
 }
 
 impl Pictures {
@@ -23,6 +25,12 @@ impl Pictures {
             folder: folder.map(Path::to_path_buf),
             curves: Vec::new(),
             references: Vec::new(),
+            times: ErrorChart::new(
+                "Error of the peak load against run time",
+                "wall time [s]",
+                "error of the peak",
+            )
+            .scattered(),
         }
     }
 
@@ -48,6 +56,9 @@ impl Pictures {
                 name = format!("{name}-{}", case.choice(other)?);
             }
         }
+        let row = &finished.row;
+        let error = row.errors.get("peak").unwrap_or(f64::NAN);
+        self.times.add(&name, row.wall_s, error);
         let history = &finished.history;
         let thin = |column: &[f64]| thinned(column, ROWS);
         let (strain, stress) = (thin(&history.strain), thin(&history.stress));
@@ -100,7 +111,8 @@ impl Pictures {
         let plane = |k: &str| matches!(k, "tension" | "necking" | "compression");
         self.draw("stress-plane.png", folder, &plane, true)?;
         let solid = |k: &str| matches!(k, "rectangle" | "square" | "circle");
-        self.draw("stress-space.png", folder, &solid, true)
+        self.draw("stress-space.png", folder, &solid, true)?;
+        self.times.save(&folder.join("error-against-time.png"))
     }
 
     fn draw(
