@@ -281,6 +281,7 @@ fn turn(planes: &mut [Plane], strain: &Sym) {
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     /// Energies are those of opening, J/m³, at a toughness scale of 1.
     const NAMES: &'static [&'static str] = &[
         "planes",
