@@ -32,6 +32,10 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     type Stencil: Stencil<D>;
     /// The weights of eight; [`OneByOne`](crate::OneByOne) serves any shape.
     type Stencils: Stencils<D>;
+    /// Whether [`domain`](Self::domain) follows the deformation gradient.
+    const DEFORMS: bool = false;
+    /// Whether [`affine_inverse`](Self::affine_inverse) is there: kernels that are not needed are then not compiled.
+    const MOMENTS: bool = false;
 
     /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3".
     fn name(&self) -> &'static str;

@@ -130,6 +130,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
     /// `σ = R·T·Rᵀ` leaves out factors of stretch.
     const HYPERELASTIC: bool = false;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &[
         "opening",
         "normal_damage",

@@ -205,6 +205,7 @@ impl<S: Softening> Point<'_, S> {
 impl<S: Softening> Material for Decohesive<S> {
     type State = DecohesiveState;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "softened", "failed"];
     const STEP_ERROR: f64 = 0.0;
 

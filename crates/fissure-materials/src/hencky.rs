@@ -58,6 +58,7 @@ impl Principal {
 
 impl Material for Hencky {
     type State = ();
+    const STRESS_FROM_GRADIENT: bool = true;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)

@@ -91,6 +91,7 @@ impl Isotropic {
 
 impl Material for Isotropic {
     type State = ();
+    const STRESS_FROM_GRADIENT: bool = true;
     const OBJECTIVE: bool = false;
     const HYPERELASTIC: bool = false;
     const STEP_ERROR: f64 = 0.0;

@@ -58,6 +58,11 @@ pub trait Material: Send + Sync + 'static {
     /// damage.
     const SPARSE: bool = false;
 
+    /// Whether the stress of a point without a history is that of its deformation gradient, to the last bit, however it
+    /// came there (and whatever the step and the band). The explicit solver then keeps one copy of the stresses of such
+    /// points instead of two, and asks for them again should a step fail. The contract checks hold the law to it.
+    const STRESS_FROM_GRADIENT: bool = false;
+
     /// Names of what [`values`](Self::values) writes, for output and probes.
     const NAMES: &'static [&'static str] = &[];
 

@@ -104,6 +104,7 @@ impl Constants {
 
 impl Material for NeoHookean {
     type State = ();
+    const STRESS_FROM_GRADIENT: bool = true;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic().check_for("neo-Hookean law")

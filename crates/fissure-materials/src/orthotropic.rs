@@ -206,6 +206,7 @@ pub(crate) fn check_axes(law: &'static str, axes: &Matrix3<f64>) -> Result<(), M
 
 impl Material for Orthotropic {
     type State = ();
+    const STRESS_FROM_GRADIENT: bool = true;
     const STEP_ERROR: f64 = 0.0;
 
     fn check(&self) -> Result<(), MaterialError> {

@@ -270,6 +270,7 @@ impl<E: DamageEvolution> ScalarDamage<E> {
 impl<E: DamageEvolution> Material for ScalarDamage<E> {
     type State = ScalarDamageState;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &["damage", "largest"];
     const STEP_ERROR: f64 = 0.0;
 

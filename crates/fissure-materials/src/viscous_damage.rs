@@ -195,6 +195,7 @@ impl Material for ViscousDamage {
     type State = ViscousDamageState;
     const RATE_DEPENDENT: bool = true;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &["damage", "static_damage", "equivalent_strain"];
 
     fn check(&self) -> Result<(), MaterialError> {

@@ -121,20 +121,51 @@ impl<const D: usize> Motion<D> {
         Ok(())
     }
 
-    /// Row `i` of `self` becomes row `order[i]` of `from`; `order` holds valid rows of `from`.
-    pub(crate) fn gather_from(&mut self, order: &[u32], from: &Self) {
-        gather(order, &from.position, &mut self.position);
-        gather(order, &from.velocity, &mut self.velocity);
-        gather(
-            order,
-            &from.deformation_gradient,
-            &mut self.deformation_gradient,
-        );
-        gather(order, &from.stress, &mut self.stress);
-        if from.affine.is_empty() {
-            self.affine.clear();
+    /// Row `i` becomes what row `order[i]` was; `order` holds valid rows. Columns that `spare` has too are gathered into
+    /// its storage.
+    pub(crate) fn reorder(&mut self, order: &[u32], spare: &mut Self) {
+        sorted(order, &mut self.position, &mut spare.position);
+        sorted(order, &mut self.velocity, &mut spare.velocity);
+        let gradient = &mut spare.deformation_gradient;
+        sorted(order, &mut self.deformation_gradient, gradient);
+        sorted(order, &mut self.stress, &mut spare.stress);
+        if self.affine.is_empty() {
+            spare.affine.clear();
         } else {
-            gather(order, &from.affine, &mut self.affine);
+            sorted(order, &mut self.affine, &mut spare.affine);
         }
+    }
+
+    /// The rows of a step that writes over velocities, stresses and affine parts: to read, positions and deformation
+    /// gradients of this motion, and to write, those of `trial` and the rest of this one.
+    pub fn slices_in_place<'a>(
+        &'a mut self,
+        trial: &'a mut Self,
+    ) -> (MotionSlices<'a, D>, MotionSlicesMut<'a, D>) {
+        let old = MotionSlices {
+            position: &self.position,
+            velocity: &[],
+            deformation_gradient: &self.deformation_gradient,
+            stress: &[],
+            affine: &[],
+        };
+        let new = MotionSlicesMut {
+            position: &mut trial.position,
+            velocity: &mut self.velocity,
+            deformation_gradient: &mut trial.deformation_gradient,
+            stress: &mut self.stress,
+            affine: &mut self.affine,
+        };
+        (old, new)
+    }
+}
+
+/// Brings a column into this order by way of another, which is empty again afterwards if it was before.
+fn sorted<T: Copy + Send + Sync>(order: &[u32], column: &mut Vec<T>, spare: &mut Vec<T>) {
+    let borrowed = spare.is_empty();
+    gather(order, column, spare);
+    std::mem::swap(column, spare);
+    if borrowed {
+        *spare = Vec::new();
     }
 }

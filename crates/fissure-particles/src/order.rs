@@ -89,6 +89,13 @@ pub(crate) fn gather<T: Copy + Send + Sync>(order: &[u32], from: &[T], to: &mut 
     }
 }
 
+/// The rows of `from` in this order.
+pub(crate) fn gathered<T: Copy + Send + Sync>(order: &[u32], from: &[T]) -> Vec<T> {
+    let mut to = Vec::new();
+    gather(order, from, &mut to);
+    to
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

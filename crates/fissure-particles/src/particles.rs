@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use nalgebra::SVector;
+use nalgebra::{Matrix3, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::ParticleError;
 use crate::extra::Extra;
 use crate::motion::Motion;
-use crate::order::{check_permutation, gather};
+use crate::order::{check_permutation, gather, gathered};
 use crate::seeding::Seeds;
 
 /// Names a particle of a body for good: given once, kept when the particles are sorted.
@@ -39,14 +39,6 @@ pub struct Particles<const D: usize> {
     /// Optional columns.
     pub extra: Extra,
     next_id: u32,
-    scratch: Scratch,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Scratch {
-    seen: Vec<bool>,
-    id: Vec<ParticleId>,
-    value: Vec<f64>,
 }
 
 impl<const D: usize> Particles<D> {
@@ -170,6 +162,48 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// The same for a step that writes velocities, stresses and affine parts over the present ones: the trial has
+    /// positions and deformation gradients, and nothing else.
+    pub fn make_trial_in_place(&mut self) {
+        let Motion {
+            position,
+            velocity,
+            deformation_gradient,
+            stress,
+            affine,
+        } = &mut self.trial;
+        let len = self.motion.position.len();
+        position.resize(len, SVector::zeros());
+        deformation_gradient.resize(len, Matrix3::identity());
+        *velocity = Vec::new();
+        *stress = Vec::new();
+        *affine = Vec::new();
+    }
+
+    /// Makes trial positions and deformation gradients the present ones.
+    ///
+    /// # Errors
+    /// [`ParticleError::ColumnLength`] if the trial has not one of each for every particle; nothing is swapped then.
+    pub fn commit_in_place(&mut self) -> Result<(), ParticleError> {
+        let expected = self.id.len();
+        let trial = &mut self.trial;
+        let columns = [
+            ("position", trial.position.len()),
+            ("deformation_gradient", trial.deformation_gradient.len()),
+        ];
+        if let Some((column, found)) = columns.into_iter().find(|(_, found)| *found != expected) {
+            return Err(ParticleError::ColumnLength {
+                column,
+                found,
+                expected,
+            });
+        }
+        std::mem::swap(&mut self.motion.position, &mut trial.position);
+        let gradient = &mut self.motion.deformation_gradient;
+        std::mem::swap(gradient, &mut trial.deformation_gradient);
+        Ok(())
+    }
+
     /// Makes the trial motion the present one; the former present one becomes the next trial's
     /// storage.
     ///
@@ -183,24 +217,23 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Brings all columns into a new order: row `i` becomes what row `order[i]` was. The storage of
-    /// the trial motion is used for it, so that what a step wrote there is lost: sort before a
+    /// the trial motion is used for it where it is there, so that what a step wrote there is lost: sort before a
     /// step, not within it.
     ///
     /// # Errors
     /// [`ParticleError::ColumnLength`] or [`ParticleError::NotAPermutation`]; nothing is moved
     /// then.
     pub fn reorder(&mut self, order: &[u32]) -> Result<(), ParticleError> {
-        check_permutation(order, self.id.len(), &mut self.scratch.seen)?;
+        // Sorts are seldom: what they need besides is given back at once.
+        check_permutation(order, self.id.len(), &mut Vec::new())?;
         self.check_lengths()?;
-        let Scratch { id, value, .. } = &mut self.scratch;
-        gather(order, &self.id, id);
-        std::mem::swap(&mut self.id, id);
-        gather(order, &self.mass, value);
-        std::mem::swap(&mut self.mass, value);
-        gather(order, &self.volume, value);
-        std::mem::swap(&mut self.volume, value);
-        self.trial.gather_from(order, &self.motion);
-        std::mem::swap(&mut self.motion, &mut self.trial);
+        self.id = gathered(order, &self.id);
+        let mut value = Vec::new();
+        gather(order, &self.mass, &mut value);
+        std::mem::swap(&mut self.mass, &mut value);
+        gather(order, &self.volume, &mut value);
+        std::mem::swap(&mut self.volume, &mut value);
+        self.motion.reorder(order, &mut self.trial);
         self.extra.reorder_checked(order);
         Ok(())
     }

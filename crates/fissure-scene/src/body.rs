@@ -1,16 +1,16 @@
 //! A body: particles in columns and one law.
 
 use fissure_materials::{MaterialError, Matrix3, Scale, Tangent};
-use fissure_particles::{Column, ExtraError, MotionSlices, MotionSlicesMut, Particles};
+use fissure_particles::{Column, ExtraError, MotionSlices, Particles};
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::error::SolveError;
+use crate::in_place::WrittenOver;
 use crate::law::{BodyLaw, Constants, SweepLaw};
-use crate::over_windows::{Cut, over_windows};
 use crate::sweep::{
-    KernelFailure, Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
+    Run, RunKernel, SweepCause, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
 
 /// Optional column: factors on the law's parameters, particle by particle.
@@ -27,6 +27,8 @@ pub struct Body<const D: usize> {
     pub(crate) particles: Particles<D>,
     pub(crate) law: Box<dyn SweepLaw<D>>,
     pub(crate) half_edges: SMatrix<f64, D, D>,
+    /// Of a step in place that cannot be undone otherwise.
+    pub(crate) copies: Option<WrittenOver<D>>,
 }
 
 impl<const D: usize> Body<D> {
@@ -137,65 +139,6 @@ impl<const D: usize> Body<D> {
         self.sweep_into(runs, kernel, settings, None)
     }
 
-    /// The same without the law: the kernel gathers and scatters.
-    ///
-    /// # Errors
-    /// The particle that the kernel could not move.
-    pub fn move_runs(
-        &mut self,
-        runs: &[Run],
-        kernel: &dyn RunKernel<D>,
-    ) -> Result<(), BodyFailure<D>> {
-        self.particles.make_trial();
-        let (motion, mut trial) = (
-            self.particles.motion.slices(),
-            self.particles.trial.slices_mut(),
-        );
-        let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
-            return Ok(());
-        };
-        let constants = Constants {
-            id: &self.particles.id,
-            mass: &self.particles.mass,
-            volume: &self.particles.volume,
-            density: self.law.density(),
-            scale: None,
-        };
-        let whole = Moving {
-            old: motion,
-            new: trial.reborrow(),
-        };
-        let (part, _) = whole.cut(last.end as usize);
-        let (_, part) = part.cut(first.start as usize);
-        let leaf = |runs: &[Run], part: Moving<'_, D>| {
-            let mut rest = Some(part);
-            kernel.on_window(runs[0].window, &mut |kernel| {
-                for run in runs {
-                    let Some(part) = rest.take() else { continue };
-                    let (mut part, left) = part.cut(run.len());
-                    rest = Some(left);
-                    let given = constants.of(run);
-                    let moved = kernel.gather(run, &given, &part.old, &mut part.new);
-                    if let Err(failure) = moved {
-                        let (old, new) = (&part.old, &mut part.new);
-                        return Err(failure.lowest(kernel, run, &constants, old, new));
-                    }
-                    kernel.scatter(run, &given, &part.old, &part.new.as_slices());
-                }
-                Ok(())
-            })
-        };
-        let moved = over_windows(runs, part, &leaf, &Result::and).unwrap_or(Ok(()));
-        moved.map_err(|KernelFailure { index }| BodyFailure {
-            position: motion.position[index],
-            failure: SweepFailure {
-                id: self.particles.id[index],
-                index,
-                cause: SweepCause::Kernel,
-            },
-        })
-    }
-
     /// The same with the spatial tangent of every particle.
     ///
     /// # Errors
@@ -218,7 +161,11 @@ impl<const D: usize> Body<D> {
         settings: &SweepSettings,
         tangents: Option<&mut Vec<Tangent>>,
     ) -> Result<SweepTotals, BodyFailure<D>> {
-        self.particles.make_trial();
+        if settings.in_place {
+            self.particles.make_trial_in_place();
+        } else {
+            self.particles.make_trial();
+        }
         let Particles {
             id,
             mass,
@@ -236,20 +183,18 @@ impl<const D: usize> Body<D> {
             scale: extra.get::<ParticleScale>(),
         };
         let tangents = tangents.map_or(Tangents::None, |t| Tangents::Into(t));
-        self.law
-            .sweep(
-                runs,
-                motion.slices(),
-                trial.slices_mut(),
-                constants,
-                kernel,
-                settings,
-                tangents,
-            )
-            .map_err(|failure| BodyFailure {
-                position: motion.position[failure.index],
-                failure,
-            })
+        let (old, new) = if settings.in_place {
+            motion.slices_in_place(trial)
+        } else {
+            (motion.slices(), trial.slices_mut())
+        };
+        let swept = self
+            .law
+            .sweep(runs, old, new, constants, kernel, settings, tangents);
+        swept.map_err(|failure| BodyFailure {
+            position: motion.position[failure.index],
+            failure,
+        })
     }
 
     /// Makes the trial motion and states the present ones.
@@ -266,7 +211,7 @@ impl<const D: usize> Body<D> {
         Ok(())
     }
 
-    fn constants(&self) -> Constants<'_> {
+    pub(crate) fn constants(&self) -> Constants<'_> {
         Constants {
             id: &self.particles.id,
             mass: &self.particles.mass,
@@ -288,28 +233,6 @@ impl<const D: usize> Body<D> {
     }
 }
 
-/// The motion of some consecutive particles.
-struct Moving<'a, const D: usize> {
-    old: MotionSlices<'a, D>,
-    new: MotionSlicesMut<'a, D>,
-}
-
-impl<const D: usize> Cut for Moving<'_, D> {
-    fn cut(self, row: usize) -> (Self, Self) {
-        let (old_a, old_b) = self.old.split_at(row);
-        let (new_a, new_b) = self.new.split_at(row);
-        let a = Self {
-            old: old_a,
-            new: new_a,
-        };
-        let b = Self {
-            old: old_b,
-            new: new_b,
-        };
-        (a, b)
-    }
-}
-
 /// `Σ m v²/2` in a fixed order.
 pub(crate) fn kinetic_energy<const D: usize>(mass: &[f64], velocity: &[SVector<f64, D>]) -> f64 {
     let pairs = mass.iter().zip(velocity);
@@ -319,8 +242,8 @@ pub(crate) fn kinetic_energy<const D: usize>(mass: &[f64], velocity: &[SVector<f
 /// A particle that stopped a sweep over a body.
 #[derive(Debug)]
 pub struct BodyFailure<const D: usize> {
-    position: SVector<f64, D>,
-    failure: SweepFailure,
+    pub(crate) position: SVector<f64, D>,
+    pub(crate) failure: SweepFailure,
 }
 
 impl<const D: usize> BodyFailure<D> {

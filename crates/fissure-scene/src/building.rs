@@ -90,6 +90,7 @@ impl<const D: usize> Scene<D> {
             particles,
             law,
             half_edges: seeds.half_edges,
+            copies: None,
         });
         self.edits += 1;
         Ok(self)

@@ -233,6 +233,12 @@ pub enum SolveError {
         #[source]
         source: ParticleError,
     },
+    /// After a step that failed, velocities and stresses could not be brought back.
+    #[error("body '{body}' could not be brought back to where it was before the step that failed")]
+    Undo {
+        /// The body.
+        body: String,
+    },
     /// A crack could not follow the material.
     #[error("step {step}, t = {time:.6e} s: crack '{crack}'")]
     Crack {

@@ -1,19 +1,20 @@
 //! A body's law, erased once per body: the particle loop inside is static.
 
-use fissure_materials::{
-    EIGHT, EightPoints, External, Increment, Material, MaterialError, Matrix3, Response, Scale,
-};
+mod eights;
+mod particle;
+mod windows;
+
+use fissure_materials::{External, Increment, Material, MaterialError, Matrix3, Scale};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
-use fissure_tensor::simd::{Lanes, SimdTask};
 use fissure_tensor::{Band, Sym};
 
+use self::windows::{Part, Sweep, Swept};
 use crate::PersistError;
 use crate::body::ParticleScale;
 use crate::over_windows::{Cut, over_windows};
-use crate::states::{Fresh, StateColumns, States};
+use crate::states::States;
 use crate::sweep::{
-    KernelFailure, Run, RunConstants, RunKernel, SweepCause, SweepFailure, SweepSettings,
-    SweepTotals, Tangents, Viscosity, WindowKernel,
+    Run, RunConstants, RunKernel, SweepFailure, SweepSettings, SweepTotals, Tangents,
 };
 
 /// Columns of a body that a sweep reads besides the motion.
@@ -68,6 +69,17 @@ pub(crate) trait SweepLaw<const D: usize>: BodyLaw {
     fn grow(&mut self, count: usize);
     fn reorder(&mut self, order: &[u32]);
     fn commit(&mut self);
+    /// Whether stresses of points without a history can be made again.
+    fn stress_from_gradient(&self) -> bool;
+    /// Makes the stresses again that a sweep in place has written over, at these deformation gradients.
+    fn restore_stress(
+        &mut self,
+        deformation_gradient: &[Matrix3<f64>],
+        scale: Option<&[ParticleScale]>,
+        stress: &mut [Sym],
+    ) -> Result<(), MaterialError>;
+    /// Forgets what the sweeps of a failed step have put aside.
+    fn forget(&mut self);
     fn wave_speed(&self, motion: &MotionSlices<'_, D>, constants: &Constants<'_>) -> f64;
     #[allow(clippy::too_many_arguments)] // The columns are borrowed apart so that they split.
     fn sweep(
@@ -146,6 +158,45 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         self.states.commit();
     }
 
+    fn stress_from_gradient(&self) -> bool {
+        M::STRESS_FROM_GRADIENT
+    }
+
+    fn restore_stress(
+        &mut self,
+        deformation_gradient: &[Matrix3<f64>],
+        scale: Option<&[ParticleScale]>,
+        stress: &mut [Sym],
+    ) -> Result<(), MaterialError> {
+        for (row, (f, stress)) in deformation_gradient.iter().zip(stress).enumerate() {
+            if let Some(slot) = self.states.slot(row) {
+                // None if the sweep had not come this far.
+                *stress = self.states.overwritten(slot).unwrap_or(*stress);
+                continue;
+            }
+            let scale = scale_of(scale, row);
+            let external = External {
+                scale,
+                ..External::default()
+            };
+            let still = Increment {
+                f_old: *f,
+                external,
+                ..Increment::to(*f)
+            };
+            *stress = self
+                .law
+                .update(&still, &self.law.without_history(f))?
+                .stress;
+        }
+        Ok(())
+    }
+
+    fn forget(&mut self) {
+        self.states.forget();
+        self.states.forget_stresses();
+    }
+
     fn wave_speed(&self, motion: &MotionSlices<'_, D>, constants: &Constants<'_>) -> f64 {
         let mut fastest: f64 = 0.0;
         for (i, f) in motion.deformation_gradient.iter().enumerate() {
@@ -175,7 +226,7 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
         let part = Part {
             old,
             new,
-            states: self.states.columns(),
+            states: self.states.columns(settings.in_place),
             tangents,
         };
         let (Some(first), Some(last)) = (runs.first(), runs.last()) else {
@@ -205,39 +256,10 @@ impl<M: Material, const D: usize> SweepLaw<D> for TypedLaw<M> {
     }
 }
 
-/// What a sweep over some windows came to: sums or a failure, and the first histories of particles.
-struct Swept<S> {
-    totals: Result<SweepTotals, SweepFailure>,
-    fresh: Fresh<S>,
-}
-
-impl<S> Swept<S> {
-    fn nothing() -> Self {
-        Self {
-            totals: Ok(SweepTotals::default()),
-            fresh: Vec::new(),
-        }
-    }
-
-    /// Of two sets of particles, the first of which come first.
-    fn join(mut self, mut other: Self) -> Self {
-        self.fresh.append(&mut other.fresh);
-        Self {
-            totals: SweepFailure::first(self.totals, other.totals),
-            fresh: self.fresh,
-        }
-    }
-}
-
-/// Of two numbers.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
-
 fn scale_of(scale: Option<&[ParticleScale]>, index: usize) -> Scale {
     scale.map_or_else(Scale::default, |scale| scale[index].0)
 }
+<<<<<<< HEAD
 
 /// What all runs of a sweep share.
 struct Sweep<'a, M: Material, const D: usize> {
@@ -585,3 +607,5 @@ fn finite<M: Material>(response: Response<M::State>) -> Result<Response<M::State
         Err(MaterialError::NotFinite { law })
     }
 }
+=======
+>>>>>>> speed

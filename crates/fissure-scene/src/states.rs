@@ -8,6 +8,7 @@
 //! when the step is committed; until then a failed step has changed nothing.
 
 use fissure_materials::{Material, Matrix3};
+use fissure_tensor::Sym;
 
 use crate::PersistError;
 use crate::sweep::Run;
@@ -51,6 +52,8 @@ pub(crate) struct States<M: Material> {
     present: Vec<M::State>,
     trial: Vec<M::State>,
     fresh: Fresh<M::State>,
+    /// Of each state that is kept the stress which a sweep in place has written over, NaN before.
+    overwritten: Vec<Sym>,
 }
 
 impl<M: Material> Default for States<M> {
@@ -60,6 +63,7 @@ impl<M: Material> Default for States<M> {
             present: Vec::new(),
             trial: Vec::new(),
             fresh: Vec::new(),
+            overwritten: Vec::new(),
         }
     }
 }
@@ -113,14 +117,36 @@ impl<M: Material> States<M> {
         self.fresh.clear();
     }
 
+    /// Where the state of a particle is kept, if it is and says anything.
+    pub fn slot(&self, row: usize) -> Option<usize> {
+        if size_of::<M::State>() == 0 {
+            return None;
+        }
+        kept::<M>(&self.places, row)
+    }
+
+    /// The stress that a sweep in place has written over.
+    pub fn overwritten(&self, slot: usize) -> Option<Sym> {
+        let stress = self.overwritten.get(slot)?;
+        stress.is_finite().then_some(*stress)
+    }
+
     /// The columns of all particles, for a sweep.
-    pub fn columns(&mut self) -> StateColumns<'_, M> {
-        self.trial.resize(self.present.len(), M::State::default());
+    pub fn columns(&mut self, in_place: bool) -> StateColumns<'_, M> {
+        let kept = self.present.len();
+        self.trial.resize(kept, M::State::default());
+        let stresses = if in_place && size_of::<M::State>() > 0 {
+            kept
+        } else {
+            0
+        };
+        self.overwritten.resize(stresses, Sym::IDENTITY * f64::NAN);
         StateColumns {
             places: &self.places,
             first: 0,
             present: &self.present,
             trial: &mut self.trial,
+            overwritten: &mut self.overwritten,
         }
     }
 
@@ -145,9 +171,15 @@ impl<M: Material> States<M> {
         self.fresh.clear();
     }
 
+    /// Forgets the stresses written over: they are back.
+    pub fn forget_stresses(&mut self) {
+        self.overwritten.clear();
+    }
+
     /// Makes the trial states the present ones.
     pub fn commit(&mut self) {
         std::mem::swap(&mut self.present, &mut self.trial);
+        self.overwritten.clear();
         let fresh = std::mem::take(&mut self.fresh);
         let Some(&(first, _)) = fresh.first() else {
             return;
@@ -242,6 +274,8 @@ pub(crate) struct StateColumns<'a, M: Material> {
     first: usize,
     present: &'a [M::State],
     trial: &'a mut [M::State],
+    /// Empty unless the sweep is in place.
+    overwritten: &'a mut [Sym],
 }
 
 impl<M: Material> StateColumns<'_, M> {
@@ -255,18 +289,22 @@ impl<M: Material> StateColumns<'_, M> {
         }
         let (present_a, present_b) = self.present.split_at(slot);
         let (trial_a, trial_b) = self.trial.split_at_mut(slot);
+        let stresses = slot.min(self.overwritten.len());
+        let (overwritten_a, overwritten_b) = self.overwritten.split_at_mut(stresses);
         (
             Self {
                 places: before,
                 first: self.first,
                 present: present_a,
                 trial: trial_a,
+                overwritten: overwritten_a,
             },
             Self {
                 places: after,
                 first: self.first + slot,
                 present: present_b,
                 trial: trial_b,
+                overwritten: overwritten_b,
             },
         )
     }
@@ -281,6 +319,14 @@ impl<M: Material> StateColumns<'_, M> {
     #[inline(always)]
     pub fn present(&self, slot: usize) -> &M::State {
         &self.present[slot]
+    }
+
+    /// Notes the stress that is to be written over.
+    #[inline(always)]
+    pub fn keep_stress(&mut self, slot: usize, stress: Sym) {
+        if let Some(kept) = self.overwritten.get_mut(slot) {
+            *kept = stress;
+        }
     }
 
     /// Sets the trial state at a slot.

@@ -195,6 +195,9 @@ pub struct SweepSettings {
     pub viscosity: Option<Viscosity>,
     /// The vector unit that laws run on.
     pub simd: Simd,
+    /// Whether velocities, stresses and affine parts are written over the present ones, as
+    /// [`Body::writes_in_place`](crate::Body::writes_in_place) allows. Runs then have at most [`Run::MAX`] particles.
+    pub in_place: bool,
 }
 
 /// Sums over the particles of a body, in an order that does not depend on threads.

@@ -112,6 +112,7 @@ fn a_damage_field_degrades_each_particle_by_its_own_value() {
         band: Band::Uniform(0.1),
         viscosity: None,
         simd: fissure_tensor::simd::Simd::widest(),
+        in_place: false,
     };
     let body = &mut scene.bodies_mut()[0];
     body.sweep(&runs, &field, &settings).unwrap();

@@ -51,6 +51,7 @@ fn the_lowest_id_of_a_run_is_reported_whatever_the_order() {
         band: Band::Uniform(0.1),
         viscosity: None,
         simd: fissure_tensor::simd::Simd::widest(),
+        in_place: false,
     };
     let body = &mut scene.bodies_mut()[0];
     let beyond = |body: &fissure_scene::Body<2>| {

@@ -49,6 +49,7 @@ fn squeezed(plane: Plane, viscosity: Option<Viscosity>) -> (Sym, [Matrix3<f64>; 
         band: Band::Uniform(0.1),
         viscosity: None,
         simd: fissure_tensor::simd::Simd::widest(),
+        in_place: false,
     };
     let first = Matrix3::new(0.9, 0.02, 0.0, 0.01, 1.1, 0.0, 0.0, 0.0, 1.0);
     body.sweep(&runs, &strain(first), &settings).unwrap();

@@ -50,8 +50,7 @@ pub struct Placement<const D: usize> {
     edits: Option<u64>,
     /// Whether a particle has left the tile of its run.
     moved: bool,
-    keys: Vec<u64>,
-    order: Vec<u32>,
+    /// Tile of each particle, while they are sorted and once recalled.
     homes: Vec<[i32; D]>,
     /// Of each particle the cracks between it and its window's nodes, while groups are formed.
     patterns: Vec<Pattern>,
@@ -74,8 +73,6 @@ impl<const D: usize> Default for Placement<D> {
             selected: Vec::new(),
             edits: None,
             moved: false,
-            keys: Vec::new(),
-            order: Vec::new(),
             homes: Vec::new(),
             patterns: Vec::new(),
             groups: Groups::default(),
@@ -126,10 +123,11 @@ impl<const D: usize> Placement<D> {
         let mut occupied = std::mem::take(&mut self.occupied);
         occupied.clear();
         let mut first = 0;
+        let (mut keys, mut order) = (Vec::new(), Vec::new());
         for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
             let count = body.particles().len();
             let homes = &self.homes[first..first + count];
-            self.keys.clear();
+            keys.clear();
             let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
             let plain = u64::from(self.groups.find(fields[index], &None));
             let patterns = self.patterns.get(first..first + count);
@@ -138,15 +136,15 @@ impl<const D: usize> Placement<D> {
                 None => plain,
             };
             let key = |(row, &home)| colour(home) << 56 | group(row) << 32 | tile_index(home);
-            self.keys.extend(homes.iter().enumerate().map(key));
+            keys.extend(homes.iter().enumerate().map(key));
             first += count;
-            if !self.keys.is_sorted() {
-                sort_permutation(&self.keys, &mut self.order);
-                body.reorder(&self.order)?;
-                self.keys.sort_unstable();
+            if !keys.is_sorted() {
+                sort_permutation(&keys, &mut order);
+                body.reorder(&order)?;
+                keys.sort_unstable();
             }
-            let runs = cut_into_runs(&self.keys);
-            let key_of = |run: &Run| self.keys[run.start as usize];
+            let runs = cut_into_runs(&keys);
+            let key_of = |run: &Run| keys[run.start as usize];
             let mut start = 0;
             for batch in runs.chunk_by(|a, b| key_of(a) >> 32 == key_of(b) >> 32) {
                 let end = start + batch.len();
@@ -163,8 +161,9 @@ impl<const D: usize> Placement<D> {
         self.batches
             .extend(batches.into_iter().map(|(_, batch)| batch));
         self.occupied = occupied;
-        // The groups hold each once.
+        // The groups hold each once, the runs the tiles.
         self.patterns = Vec::new();
+        self.homes = Vec::new();
         self.split();
         self.index_selected(scene);
         self.edits = Some(scene.edits());

@@ -19,6 +19,7 @@ pub struct Bspline3;
 impl<const D: usize> Shape<D> for Bspline2 {
     type Stencil = Separable<D, 3>;
     type Stencils = SeparableStencils<D, 3>;
+    const MOMENTS: bool = true;
 
     fn name(&self) -> &'static str {
         "bspline2"
@@ -62,6 +63,7 @@ impl<const D: usize> Shape<D> for Bspline2 {
 impl<const D: usize> Shape<D> for Bspline3 {
     type Stencil = Separable<D, 4>;
     type Stencils = SeparableStencils<D, 4>;
+    const MOMENTS: bool = true;
 
     fn name(&self) -> &'static str {
         "bspline3"

@@ -41,6 +41,7 @@ pub struct Corners<const D: usize> {
 impl<const D: usize> Shape<D> for Cpdi {
     type Stencil = Corners<D>;
     type Stencils = OneByOne<Corners<D>>;
+    const DEFORMS: bool = true;
 
     fn name(&self) -> &'static str {
         "cpdi"

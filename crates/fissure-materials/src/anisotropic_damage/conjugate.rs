@@ -36,6 +36,7 @@ pub struct ConjugateDamage<N = Linear, T = Linear>(pub AnisotropicDamage<N, T>);
 impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
     type State = AnisotropicDamageState;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = AnisotropicDamage::<N, T>::NAMES;
     // A path that is straight in U − 1 has none; one that is straight in F has at strains of a quarter, five natural ones
     // of a weak law (measured 0.22).

@@ -245,6 +245,7 @@ impl<N: Softening, T: Softening> Material for TwoCrackDamage<N, T> {
     type State = TwoCrackState;
     const HYPERELASTIC: bool = false;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &[
         "opening",
         "normal_damage",

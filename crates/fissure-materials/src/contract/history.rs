@@ -1,10 +1,11 @@
-//! A sparse law's word on which states need not be kept.
+//! A law's word on which states, and which stresses, need not be kept.
 
 use super::{gauge::Gauge, runner::Property};
 use crate::{Increment, Material};
 
 /// Every state of a history that a [`SPARSE`](Material::SPARSE) law says need not be kept follows
-/// from the deformation gradient it was reached at. Bound: equality. A virgin particle, above all, keeps none.
+/// from the deformation gradient it was reached at, and so does the stress of such a point where the law says so
+/// ([`STRESS_FROM_GRADIENT`](Material::STRESS_FROM_GRADIENT)). Bound: equality. A virgin particle, above all, keeps none.
 pub(super) fn history<M: Material>() -> Property<M> {
     Property {
         name: "sparse history",
@@ -22,7 +23,7 @@ pub(super) fn history<M: Material>() -> Property<M> {
         },
         judge: |subject, case| {
             let (mut gauge, law) = (Gauge::default(), subject.law);
-            if !M::SPARSE {
+            if !(M::SPARSE || M::STRESS_FROM_GRADIENT) {
                 return Ok(gauge);
             }
             let rest = Increment::to(crate::Matrix3::identity());
@@ -39,10 +40,16 @@ pub(super) fn history<M: Material>() -> Property<M> {
                         again == *state,
                         "a state that is not kept does not come back",
                     );
+                    if M::STRESS_FROM_GRADIENT {
+                        let zero = subject.increment(*f, *f, &case.band);
+                        let again = law.update(&zero, &again)?;
+                        let same = again.stress == response.stress;
+                        gauge.require(same, "the stress is not that of the gradient alone");
+                    }
                 }
             }
             Ok(gauge)
         },
-        must_apply: M::SPARSE,
+        must_apply: M::SPARSE || M::STRESS_FROM_GRADIENT,
     }
 }

@@ -12,6 +12,7 @@ use crate::{
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
     const SPARSE: bool = true;
+    const STRESS_FROM_GRADIENT: bool = true;
     /// Energies are those of opening, J/m³, at a toughness scale of 1.
     const NAMES: &'static [&'static str] = &[
         "planes",

@@ -58,7 +58,7 @@ fn runs(dice: &mut Dice) -> Vec<Run> {
 fn sweep<const SPARSE: bool>(states: &mut States<Counting<SPARSE>>, runs: &[Run], chosen: &[bool]) {
     let (law, f) = (Counting::<SPARSE>, Matrix3::identity());
     let mut fresh = Vec::new();
-    let mut rest = Some(states.columns());
+    let mut rest = Some(states.columns(false));
     let mut at = 0;
     for run in runs {
         let (_, later) = rest.take().unwrap().cut(run.start as usize - at);

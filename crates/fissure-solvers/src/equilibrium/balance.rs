@@ -46,6 +46,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
             band: band.band(transfers.shape, transfers.grid, body),
             viscosity: None,
             simd: transfers.simd,
+            in_place: false,
         };
         let runs = &transfers.placement.runs[index];
         let part = match tangents.as_mut() {

@@ -15,6 +15,8 @@ use crate::nodes::{Field, NodeSums, element, vector};
 pub(crate) struct Nodes {
     /// At its end.
     pub end: Field,
+    /// At the end of the step before, for steps in place.
+    pub before: Field,
     /// What the particles' velocities take up, where that is not `end`.
     pub carried: Field,
     /// What strains the particles, where that is not `end`.

@@ -17,6 +17,8 @@ use crate::window::{CUBE, SQUARE, WindowSums};
 /// What particles give to the nodes at the end of a pass over them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Giving {
+    /// Nothing: a pass that is made again.
+    Nothing,
     /// Mass and the momentum they have now, at the place they came from.
     MomentumBack,
     /// Mass and momentum, at the place they have moved to.
@@ -155,8 +157,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
         let (pass, simd) = (self.pass, self.pass.transfers.simd);
-        let affine = pass.moves && pass.is_affine();
-        let moments = affine && pass.affine_inverse.is_some();
+        let affine = pass.is_affine();
         macro_rules! gather {
             ($moves:literal, $strains:literal, $gradient:literal, $moment:literal) => {
                 simd.run(
@@ -170,13 +171,22 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             };
         }
         // What is known when this is compiled is not asked for each particle, and sums stay where they are made.
-        let gathered = match (pass.moves, pass.strains, affine, moments) {
-            (false, ..) => gather!(false, true, true, false),
-            (true, true, _, false) => gather!(true, true, true, false),
-            (true, true, _, true) => gather!(true, true, true, true),
-            (true, false, false, _) => gather!(true, false, false, false),
-            (true, false, true, false) => gather!(true, false, true, false),
-            (true, false, true, true) => gather!(true, false, false, true),
+        let gathered = if !pass.moves {
+            gather!(false, true, true, false)
+        } else if !affine && pass.strains {
+            gather!(true, true, true, false)
+        } else if !affine {
+            gather!(true, false, false, false)
+        } else if S::MOMENTS {
+            if pass.strains {
+                gather!(true, true, true, true)
+            } else {
+                gather!(true, false, false, true)
+            }
+        } else if pass.strains {
+            gather!(true, true, true, false)
+        } else {
+            gather!(true, false, true, false)
         };
         gathered.map_err(|row| KernelFailure {
             index: run.start as usize + row,

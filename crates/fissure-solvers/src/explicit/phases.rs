@@ -194,6 +194,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             let body = &mut scene.bodies_mut()[index];
             let kernel = self.kernel(body, sums, pass);
             let sweep = SweepSettings {
+                in_place: self.in_place(body),
                 dt: self.dt,
                 band: self.settings.band.band(shape, grid, body),
                 viscosity: self.viscosity(),
@@ -205,6 +206,50 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             totals = totals.merge(part);
         }
         Ok(totals)
+    }
+
+    /// Whether a sweep over this body writes over its velocities and stresses.
+    pub(crate) fn in_place(&self, body: &Body<D>) -> bool {
+        self.settings.in_place::<S, D>() && body.writes_in_place()
+    }
+
+    /// Copies what a sweep will write over where no step has gone before that could be made again.
+    pub(crate) fn prepare_undo(&self, scene: &mut Scene<D>) {
+        for body in scene.bodies_mut() {
+            if self.in_place(body) {
+                body.copy_for_undo();
+            }
+        }
+    }
+
+    /// Brings back what the sweep of a step that failed has written over; `before` is the field that moved the particles
+    /// in the step before, `dt` (s) its length.
+    pub(crate) fn undo(
+        &self,
+        scene: &mut Scene<D>,
+        sums: &NodeSums<D>,
+        before: &Field,
+        dt: f64,
+    ) -> Result<(), SolveError> {
+        let pass = Pass {
+            field: before,
+            carried: None,
+            moves: true,
+            strains: false,
+            giving: Giving::Nothing,
+        };
+        for (index, body) in scene.bodies_mut().iter_mut().enumerate() {
+            if self.in_place(body) {
+                let batches = self.transfers.placement.batches();
+                let runs = batches.filter(|(of, _)| *of == index).map(|(_, runs)| runs);
+                let kernel = StepKernel {
+                    dt,
+                    ..self.kernel(body, sums, pass)
+                };
+                body.undo_in_place(runs, &kernel)?;
+            }
+        }
+        Ok(())
     }
 
     /// A pass without the law.

@@ -1,6 +1,6 @@
 //! Choices of the explicit solver.
 
-use fissure_grid::simd::Simd;
+use fissure_grid::{Shape, simd::Simd};
 use fissure_scene::SolveError;
 
 use crate::band::BandSource;
@@ -91,6 +91,15 @@ impl Default for ExplicitSettings {
 }
 
 impl ExplicitSettings {
+    /// Whether a step reads no velocity, stress or affine part of the step before, and can make them again from its nodal
+    /// field: then they are written over ([`Body::writes_in_place`](fissure_scene::Body::writes_in_place)).
+    pub(crate) fn in_place<S: Shape<D>, const D: usize>(&self) -> bool {
+        !self.transfer.carries()
+            && self.stress_update == StressUpdate::Last
+            && self.viscosity.is_none()
+            && !S::DEFORMS
+    }
+
     /// Refuses settings outside their range.
     pub(crate) fn check(&self) -> Result<(), SolveError> {
         let refuse = |setting, value, permitted| {

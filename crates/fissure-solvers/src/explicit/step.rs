@@ -46,6 +46,8 @@ pub struct Explicit<S, const D: usize> {
     fastest: Option<f64>,
     /// Whether `fastest` was recalled from a checkpoint and the scene restored after.
     recalled: bool,
+    /// Length of the step before, s.
+    dt: f64,
 }
 
 impl<S: Shape<D>, const D: usize> Explicit<S, D> {
@@ -70,6 +72,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             mean_particle_mass: 0.0,
             fastest: None,
             recalled: false,
+            dt: 0.0,
         })
     }
 
@@ -200,9 +203,11 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             strayed,
             mean_particle_mass: *mean_particle_mass,
         };
-        if !std::mem::take(&mut self.summed) {
+        let goes_on = std::mem::take(&mut self.summed);
+        if !goes_on {
             to_grid(&phases.transfers, settings, scene, sums)?;
         }
+        std::mem::swap(&mut nodes.before, &mut nodes.end);
         phases.meetings.bond(sums);
 
         let mut totals = SweepTotals::default();
@@ -239,7 +244,14 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             StressUpdate::Last => {
                 pass.strains = true;
                 pass.giving = Giving::AllOn;
-                totals = phases.sweep(scene, sums, pass)?;
+                if !goes_on {
+                    phases.prepare_undo(scene);
+                }
+                let swept = phases.sweep(scene, sums, pass);
+                if swept.is_err() {
+                    phases.undo(scene, sums, &nodes.before, self.dt)?;
+                }
+                totals = swept?;
             }
             StressUpdate::Musl => {
                 pass.giving = Giving::MomentumBack;
@@ -273,8 +285,13 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         cracks.accept(scene, placement);
         glued.keep(scene);
         for body in scene.bodies_mut() {
-            body.commit()?;
+            if settings.in_place::<S, D>() && body.writes_in_place() {
+                body.commit_in_place(dt)?;
+            } else {
+                body.commit()?;
+            }
         }
+        self.dt = dt;
         self.summed = !*strayed.get_mut();
         let (kinetic, fastest) = match stress_update {
             // The particles were moved after the sweep.
