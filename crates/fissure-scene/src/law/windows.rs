@@ -97,9 +97,9 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
                     let (old, new) = (&part.old, &mut part.new);
                     return Err(failure.lowest(kernel, run, &self.constants, old, new));
                 }
-                let totals = self.run(run, kernel, &mut part, &mut swept.fresh);
-                if totals.is_ok() {
-                    kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
+                let mut totals = self.run(run, kernel, &mut part, &mut swept.fresh);
+                if let Ok(totals) = &mut totals {
+                    totals.work = kernel.scatter(run, &constants, &part.old, &part.new.as_slices());
                 }
                 let before = std::mem::replace(&mut swept.totals, Ok(SweepTotals::default()));
                 swept.totals = SweepFailure::first(before, totals);
