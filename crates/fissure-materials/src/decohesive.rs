@@ -18,11 +18,11 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale, Softening,
-    check_parameter,
+    Biot, EightPoints, EightResponses, Extrapolated, Increment, Isotropic, Material, MaterialError,
+    Response, Scale, Softening, check_parameter,
     error::{check_below, check_scaled_toughness},
     softening::{Linear, opening},
-    sound::{below, sound},
+    sound::{below, sound, sound_eight},
     turning::Turning,
 };
 
@@ -269,6 +269,13 @@ impl<S: Softening> Material for Decohesive<S> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&point, &kinematics, &increment.band, old)?;
         Ok(point.response(&kinematics, &step, old))
+    }
+
+    #[inline(always)]
+    fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        sound_eight(&self.elastic, points, |place, stress| {
+            below(self.strength * points.strength[place], stress)
+        })
     }
 
     fn tangent(
