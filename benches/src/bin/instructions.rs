@@ -11,65 +11,45 @@
 #![allow(clippy::print_stdout)] // A command that prints.
 
 use std::process::{Command, Stdio};
-use std::time::Instant;
 
 use fissure::prelude::*;
+use fissure_benches::{fill, held, thread_time};
+
+#[global_allocator]
+static HEAP: &stats_alloc::StatsAlloc<std::alloc::System> = &stats_alloc::INSTRUMENTED_SYSTEM;
 
 type Failure = Box<dyn std::error::Error>;
 
-const CASES: [(&str, &str); 4] = [
+const CASES: [(&str, &str); 8] = [
     ("A", "neo-hookean"),
-    ("B", "neo-hookean"),
+    ("A", "own-eights"),
+    ("A", "own"),
     ("A", "decohesive"),
+    ("B", "neo-hookean"),
+    ("B", "own-eights"),
+    ("B", "own"),
     ("B", "decohesive"),
 ];
 
 /// Steps that are counted, and those before.
 const STEPS: [u32; 2] = [2, 6];
 
-fn fill<const D: usize>(scene: &mut Scene<D>, law: &str, cells: f64) -> Result<(), Error> {
-    let (density, young, poisson) = (1000.0, 1e6, 0.3);
-    let spacing = Spacing(0.5 / cells);
-    let block = &Block::new([0.25; D], [0.75; D]);
-    match law {
-        "decohesive" => {
-            let law = Decohesive {
-                elastic: Isotropic {
-                    density,
-                    young,
-                    poisson,
-                },
-                strength: 1e8,
-                toughness: 1e12,
-                softening: softening::Linear,
-                normal: Normal::Rankine,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
-        _ => {
-            let law = NeoHookean {
-                density,
-                young,
-                poisson,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
-    };
-    scene.set_velocity("block", |x| {
-        let wave = |axis: usize| (std::f64::consts::TAU * x[(axis + 1) % D]).sin();
-        SVector::from_fn(|axis, _| wave(axis) + if axis == 0 { 1.0 } else { 0.0 })
-    })?;
-    Ok(())
+/// What came of a run: particles, and of each the processor time of a step, s, and bytes, the grid's among them.
+struct Ran {
+    particles: usize,
+    time: f64,
+    bytes: f64,
 }
 
-/// Particles, and seconds of a step.
 fn run<const D: usize>(
     mut scene: Scene<D>,
     law: &str,
     cells: f64,
     steps: u32,
-) -> Result<(usize, f64), Failure> {
-    fill(&mut scene, law, cells)?;
+) -> Result<Ran, Failure> {
+    let before = held();
+    let block = Block::new([0.25; D], [0.75; D]);
+    fill(&mut scene, law, &block, 0.5 / cells)?;
     let settings = ExplicitSettings {
         transfer: Transfer::Apic,
         stress_update: StressUpdate::Last,
@@ -78,15 +58,21 @@ fn run<const D: usize>(
     let grid = Grid::over([0.0; D], [1.0; D], 1.0 / cells)?;
     let mut solver = Explicit::new(grid, shape::Bspline2, settings)?;
     solver.step(&mut scene, 1e-5)?;
-    let start = Instant::now();
+    let start = thread_time();
     for step in 1..=steps {
         solver.step(&mut scene, 1e-5 * f64::from(step + 1))?;
     }
-    let time = start.elapsed().as_secs_f64() / f64::from(steps);
-    Ok((scene.particle_count(), time))
+    let particles = scene.particle_count();
+    let updates = f64::from(steps) * particles as f64;
+    Ok(Ran {
+        particles,
+        time: (thread_time() - start) / updates,
+        bytes: (held() - before) / particles as f64,
+    })
 }
 
-fn run_named(problem: &str, law: &str, large: bool, steps: u32) -> Result<(usize, f64), Failure> {
+/// Runs a problem on one thread, in its `large` size or the small one.
+fn run_named(problem: &str, law: &str, large: bool, steps: u32) -> Result<Ran, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let ran = pool.install(|| {
         match problem {
@@ -116,7 +102,7 @@ fn counted(problem: &str, law: &str, steps: u32) -> Result<f64, Failure> {
         .output()
         .map_err(|error| format!("valgrind: {error}"))?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let line = said.lines().find(|line| line.contains("I refs:"));
+    let line = said.lines().find(|line| line.contains("refs:"));
     let number = line.and_then(|line| line.rsplit(':').next());
     let number = number.map(|number| number.trim().replace(',', ""));
     let number = number.and_then(|number| number.parse().ok());
@@ -126,35 +112,40 @@ fn counted(problem: &str, law: &str, steps: u32) -> Result<f64, Failure> {
 fn count(json: bool) -> Result<(), Failure> {
     for (problem, law) in CASES {
         let [few, many] = STEPS;
-        let (particles, _) = run_named(problem, law, false, 1)?;
+        let Ran {
+            particles, bytes, ..
+        } = run_named(problem, law, false, 1)?;
         let more = counted(problem, law, many)? - counted(problem, law, few)?;
         let each = more / (f64::from(many - few) * particles as f64);
         if json {
             let row = serde_json::json!({
                 "problem": problem, "law": law, "particles": particles,
-                "instructions_per_update": each,
+                "instructions_per_update": each, "bytes_per_particle": bytes,
             });
             println!("{row}");
         } else {
-            println!("{problem} {law:12} {each:8.1} instructions per particle and step");
+            println!(
+                "{problem} {law:12} {each:8.1} instructions per particle and step, {bytes:4.0} bytes"
+            );
         }
     }
     Ok(())
 }
 
-/// The best of some interleaved runs.
+/// Processor time, the best of some interleaved runs, and memory.
 fn time() -> Result<(), Failure> {
-    let mut best = [f64::INFINITY; CASES.len()];
+    let mut best = [(f64::INFINITY, 0.0); CASES.len()];
     for _ in 0..5 {
-        for ((problem, law), best) in CASES.iter().zip(&mut best) {
-            let (particles, time) = run_named(problem, law, true, 20)?;
-            *best = best.min(time / particles as f64);
+        for ((problem, law), (time, bytes)) in CASES.iter().zip(&mut best) {
+            let ran = run_named(problem, law, true, 20)?;
+            *time = time.min(ran.time);
+            *bytes = ran.bytes;
         }
     }
-    for ((problem, law), best) in CASES.iter().zip(best) {
+    for ((problem, law), (time, bytes)) in CASES.iter().zip(best) {
         println!(
-            "{problem} {law:12} {:8.1} ns per particle and step",
-            best * 1e9
+            "{problem} {law:12} {:8.1} ns per particle and step, {bytes:4.0} bytes",
+            time * 1e9
         );
     }
     Ok(())

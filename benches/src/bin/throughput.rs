@@ -19,6 +19,10 @@ use std::time::Instant;
 
 use fissure::grid::simd::{EIGHT, Lanes, Simd, SimdTask};
 use fissure::prelude::*;
+use fissure_benches::{fill, held, thread_time};
+
+#[global_allocator]
+static HEAP: &stats_alloc::StatsAlloc<std::alloc::System> = &stats_alloc::INSTRUMENTED_SYSTEM;
 
 /// What is run: everything that makes a row but the number of threads.
 #[derive(Clone, Copy)]
@@ -83,7 +87,7 @@ fn cases(quick: bool) -> Vec<(Case, usize)> {
             1,
         ));
     }
-    for law in ["isotropic", "decohesive"] {
+    for law in ["own-eights", "own", "isotropic", "decohesive"] {
         cases.push((Case { law, ..ELASTIC }, 1));
     }
     cases
@@ -108,47 +112,6 @@ fn settings(case: &Case) -> Result<ExplicitSettings, String> {
     })
 }
 
-/// Fills a block with the case's law.
-fn fill<const D: usize>(
-    scene: &mut Scene<D>,
-    case: &Case,
-    block: &Block<D>,
-    spacing: f64,
-) -> Result<(), Error> {
-    let elastic = Isotropic {
-        density: 1000.0,
-        young: 1e6,
-        poisson: 0.3,
-    };
-    let spacing = Spacing(spacing);
-    match case.law {
-        "isotropic" => scene.fill("block", elastic, block, &spacing)?,
-        "decohesive" => {
-            let law = Decohesive {
-                elastic,
-                strength: 1e8,
-                toughness: 1e12,
-                softening: softening::Linear,
-                normal: Normal::Rankine,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
-        _ => {
-            let law = NeoHookean {
-                density: 1000.0,
-                young: 1e6,
-                poisson: 0.3,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
-    };
-    scene.set_velocity("block", |x| {
-        let wave = |axis: usize| (std::f64::consts::TAU * x[(axis + 1) % D]).sin();
-        SVector::from_fn(|axis, _| wave(axis) + if axis == 0 { 1.0 } else { 0.0 })
-    })?;
-    Ok(())
-}
-
 /// Sizes of a problem: cells of the grid along an axis, cells of matter, step, warm-up and timed
 /// steps.
 fn sizes(problem: &str) -> (f64, f64, f64, u32, u32) {
@@ -166,7 +129,7 @@ fn prepare<const D: usize>(
     let (low, high) = (0.5 * (grid - matter) / grid, 0.5 * (grid + matter) / grid);
     fill(
         &mut scene,
-        case,
+        case.law,
         &Block::new([low; D], [high; D]),
         0.5 / grid,
     )?;
@@ -183,7 +146,7 @@ struct Timed {
 }
 
 fn time<const D: usize>(scene: Scene<D>, case: &Case) -> Result<Timed, Box<dyn std::error::Error>> {
-    let before = resident();
+    let before = held();
     let (mut scene, grid) = prepare(scene, case)?;
     let settings = settings(case)?;
     let mut solver: Box<dyn Solver<D>> = match case.shape {
@@ -207,7 +170,7 @@ fn time<const D: usize>(scene: Scene<D>, case: &Case) -> Result<Timed, Box<dyn s
         updates_per_s: updates / start.0.elapsed().as_secs_f64(),
         updates_per_cpu_s: updates / (processor_time() - start.1),
         particles,
-        bytes_per_particle: (resident() - before) / particles as f64,
+        bytes_per_particle: (held() - before) / particles as f64,
         kinetic: scene.bodies()[0].kinetic_energy(),
     })
 }
@@ -224,13 +187,6 @@ fn processor_time() -> f64 {
     } else {
         f64::NAN
     }
-}
-
-/// Processor time of this thread so far, s; NaN where the system does not tell.
-fn thread_time() -> f64 {
-    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let first = stat.split_whitespace().next();
-    first.and_then(|n| n.parse().ok()).unwrap_or(f64::NAN) * 1e-9
 }
 
 /// Multiply-adds on as many numbers as there are registers for.
@@ -285,13 +241,6 @@ fn bandwidth() -> f64 {
     (0..5).map(&mut trial).fold(0.0, f64::max)
 }
 
-/// Resident memory, bytes; NaN where the system does not tell.
-fn resident() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
-    let pages = status.split_whitespace().nth(1);
-    pages.and_then(|n| n.parse().ok()).unwrap_or(f64::NAN) * 4096.0
-}
-
 fn run(case: &Case, threads: usize) -> Result<Row, Box<dyn std::error::Error>> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -321,13 +270,13 @@ fn run(case: &Case, threads: usize) -> Result<Row, Box<dyn std::error::Error>> {
 
 /// Time and memory of B's step with so many cells of matter along an edge, on one thread, in a grid of `room` as many.
 fn scale_row(matter: f64, room: f64) -> Result<(usize, f64, f64), Box<dyn std::error::Error>> {
-    let before = resident();
+    let before = held();
     let (h, edge) = (1.0 / 64.0, matter / 64.0);
     let mut scene = Scene::solid();
     let low = 0.5 * (room - 1.0) * edge + 4.0 * h;
     fill(
         &mut scene,
-        &ELASTIC,
+        ELASTIC.law,
         &Block::new([low; 3], [low + edge; 3]),
         0.5 * h,
     )?;
@@ -346,7 +295,7 @@ fn scale_row(matter: f64, room: f64) -> Result<(usize, f64, f64), Box<dyn std::e
     }
     let updates = f64::from(steps) * particles as f64;
     let time = (processor_time() - start) / updates;
-    Ok((particles, time, (resident() - before) / particles as f64))
+    Ok((particles, time, (held() - before) / particles as f64))
 }
 
 /// Time of a particle's step from 1e3 to 5e6 particles, and with up to 1e6 times as much empty space as matter.

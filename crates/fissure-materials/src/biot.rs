@@ -5,6 +5,8 @@
 //! whether or not `T` and `U` share their axes, and the Cauchy stress is `F·S·Fᵀ / det F`. The
 //! work of the Cauchy stress is then exactly `T : dE` per reference volume.
 
+use std::f64::consts::SQRT_2;
+
 use fissure_tensor::{Matrix3, Sym, Tangent, polar, solve_lyapunov};
 
 use crate::MaterialError;
@@ -49,10 +51,30 @@ impl Biot {
     ///
     /// With `C = FᵀF`, `λ² ≤ tr C/3 + 2 √(J₂(C)/3)`: no spectrum needed. It turns a wave speed of the
     /// reference configuration into a bound of that of the current one.
+    #[inline]
     pub fn longest_stretch(f: &Matrix3<f64>) -> f64 {
-        let squared = Sym::from_matrix(&(f.transpose() * f));
+        Self::longest_stretch_of_rows([
+            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
+        ])
+    }
+
+    /// The same from the components, row by row; without branches and calls.
+    #[inline(always)]
+    pub(crate) fn longest_stretch_of_rows([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> f64 {
+        let squared = Sym {
+            mandel: [
+                xx * xx + yx * yx + zx * zx,
+                xy * xy + yy * yy + zy * zy,
+                xz * xz + yz * yz + zz * zz,
+                SQRT_2 * (xy * xz + yy * yz + zy * zz),
+                SQRT_2 * (xx * xz + yx * yz + zx * zz),
+                SQRT_2 * (xx * xy + yx * yy + zx * zy),
+            ],
+        };
         let largest = squared.mean() + 2.0 * (squared.j2() / 3.0).sqrt();
-        largest.sqrt().max(1.0)
+        let stretch = largest.sqrt();
+        // Not `max`, which is a call.
+        if stretch > 1.0 { stretch } else { 1.0 }
     }
 
     /// Cauchy stress from the stress `T` conjugate to the strain.

@@ -18,12 +18,12 @@ use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Biot, Extrapolated, Increment, Isotropic, Material, MaterialError, Response, Scale, SheetStep,
-    Softening, check_parameter,
+    Biot, EightPoints, EightResponses, Extrapolated, Increment, Isotropic, Material, MaterialError,
+    Response, Scale, SheetStep, Softening, check_parameter,
     error::{check_below, check_scaled_toughness},
     sheet::{Thickening, in_sheet},
     softening::{Linear, opening},
-    sound::{below, sound},
+    sound::{below, sound, sound_eight},
     turning::Turning,
 };
 
@@ -292,6 +292,13 @@ impl<S: Softening> Material for Decohesive<S> {
         };
         let measure = Thickening::Stretch;
         in_sheet(&law, solid, measure, increment, old, with_tangent).map(Some)
+    }
+
+    #[inline(always)]
+    fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        sound_eight(&self.elastic, points, |place, stress| {
+            below(self.strength * points.strength[place], stress)
+        })
     }
 
     fn tangent(

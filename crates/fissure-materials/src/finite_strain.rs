@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use fissure_tensor::{Matrix3, Sym};
 
-use crate::MaterialError;
+use crate::{EIGHT, MaterialError};
 
 /// `b − 1` and `J − 1` from the displacement gradient `H = F − 1`.
 ///
@@ -21,6 +21,13 @@ pub(crate) struct LeftStrain {
 }
 
 impl LeftStrain {
+    /// At rest.
+    pub const NONE: Self = Self {
+        excess: Sym::ZERO,
+        dilation: 0.0,
+        distortion: 0.0,
+    };
+
     /// Of a deformation gradient.
     ///
     /// # Errors
@@ -85,15 +92,10 @@ impl LeftStrain {
     pub fn root(&self) -> Option<Sym> {
         let a = &self.excess;
         let squared = a.dot(a);
-        let terms = if squared <= 1e-6 {
-            6
-        } else if squared <= 1e-4 {
-            9
-        } else if squared <= 1e-2 {
-            16
-        } else {
+        if !(squared <= SQUARED[2]) {
             return None;
-        };
+        }
+        let terms = terms(squared);
         let first = a.trace();
         let second = 0.5 * (first * first - squared);
         let third = a.determinant();
@@ -103,6 +105,67 @@ impl LeftStrain {
         }
         let powers = *a * (p - second * r) + product(a, a) * (q + first * r);
         Some(Sym::IDENTITY * (third * r) + powers)
+    }
+
+    /// [`root`](Self::root) of eight, to the last bit; zeros and `false` where one is over 0.1.
+    ///
+    /// The powers that `root` leaves out have coefficients of zero here, so that all eight take the same turns.
+    #[inline(always)]
+    pub fn roots(eight: &[Self; EIGHT]) -> ([Sym; EIGHT], bool) {
+        let mut roots = [Sym::ZERO; EIGHT];
+        let mut squared = [0.0; EIGHT];
+        let mut largest: f64 = 0.0;
+        let mut small = true;
+        for (squared, one) in squared.iter_mut().zip(eight) {
+            *squared = one.excess.dot(&one.excess);
+            small &= *squared <= SQUARED[2];
+            largest = if *squared > largest {
+                *squared
+            } else {
+                largest
+            };
+        }
+        if !small {
+            return (roots, false);
+        }
+        let terms = terms(largest);
+        let mut invariants = [[0.0; EIGHT]; 3];
+        for place in 0..EIGHT {
+            let a = &eight[place].excess;
+            invariants[0][place] = a.trace();
+            invariants[1][place] =
+                0.5 * (invariants[0][place] * invariants[0][place] - squared[place]);
+            invariants[2][place] = a.determinant();
+        }
+        let (mut p, mut q, mut r) = ([0.0; EIGHT], [0.0; EIGHT], [0.0; EIGHT]);
+        for term in (0..terms).rev() {
+            let beyond = match term {
+                ..TERMS_0 => -1.0,
+                TERMS_0..TERMS_1 => SQUARED[0],
+                _ => SQUARED[1],
+            };
+            for place in 0..EIGHT {
+                let c = if squared[place] > beyond {
+                    ROOT[term]
+                } else {
+                    0.0
+                };
+                let [first, second, third] = invariants;
+                (p[place], q[place], r[place]) = (
+                    c + third[place] * r[place],
+                    p[place] - second[place] * r[place],
+                    q[place] + first[place] * r[place],
+                );
+            }
+        }
+        for place in 0..EIGHT {
+            let a = &eight[place].excess;
+            let [first, second, third] = invariants;
+            let powers = *a * (p[place] - second[place] * r[place])
+                + product(a, a) * (q[place] + first[place] * r[place]);
+            roots[place] = Sym::IDENTITY * (third[place] * r[place]) + powers;
+        }
+        (roots, true)
     }
 
     /// `J`.
@@ -115,6 +178,23 @@ impl LeftStrain {
     #[inline(always)]
     pub fn log_jacobian(&self) -> f64 {
         log_of_one_plus(self.dilation).0
+    }
+}
+
+/// Up to these squares of `|b − 1|` the root takes so many terms.
+const SQUARED: [f64; 3] = [1e-6, 1e-4, 1e-2];
+const TERMS_0: usize = 6;
+const TERMS_1: usize = 9;
+
+/// How many terms of the root are above round-off.
+#[inline(always)]
+fn terms(squared: f64) -> usize {
+    if squared <= SQUARED[0] {
+        TERMS_0
+    } else if squared <= SQUARED[1] {
+        TERMS_1
+    } else {
+        ROOT.len()
     }
 }
 
@@ -139,7 +219,7 @@ const ROOT: [f64; 16] = [
 ];
 
 /// The product of two symmetric tensors that commute, which is symmetric.
-#[inline]
+#[inline(always)]
 pub(crate) fn product(a: &Sym, b: &Sym) -> Sym {
     let (a, b) = (&a.mandel, &b.mandel);
     let (yz, xz, xy) = (0.5 * a[3] * b[3], 0.5 * a[4] * b[4], 0.5 * a[5] * b[5]);

@@ -10,7 +10,7 @@
 use fissure_tensor::{Matrix3, Sym};
 
 use crate::finite_strain::{LeftStrain, product};
-use crate::{Isotropic, MaterialError, Response};
+use crate::{Biot, EIGHT, EightPoints, EightResponses, Isotropic, MaterialError, Response};
 
 /// The response of an uncracked point if the strain is small and `accepts` rules a crack out for
 /// its stress, of which it may use the invariants only; else `None`, and the caller has to look
@@ -40,18 +40,54 @@ pub(crate) fn sound<State: Default>(
     Ok(None)
 }
 
+/// [`sound`] of eight points, to the last bit, with the wave speeds of [`Biot::longest_stretch`]; `None` if that closer look
+/// is needed at one of them.
+#[inline(always)]
+pub(crate) fn sound_eight(
+    elastic: &Isotropic,
+    points: &EightPoints,
+    accepts: impl Fn(usize, &Sym) -> bool,
+) -> Option<EightResponses> {
+    let mut strains = [LeftStrain::NONE; EIGHT];
+    let mut all_sound = true;
+    for (place, strain) in strains.iter_mut().enumerate() {
+        let sound;
+        (*strain, sound) = LeftStrain::of_rows(points.gradient(place));
+        all_sound &= sound;
+    }
+    let (roots, small) = LeftStrain::roots(&strains);
+    if !(all_sound & small) {
+        return None;
+    }
+    let mut responses = EightResponses::default();
+    for place in 0..EIGHT {
+        let elastic = Isotropic {
+            young: elastic.young * points.stiffness[place],
+            ..*elastic
+        };
+        let strain = &roots[place];
+        let stress = elastic.stress(strain);
+        all_sound &= accepts(place, &stress);
+        let cauchy = (stress + product(strain, &stress)) / strains[place].jacobian();
+        let stretch = Biot::longest_stretch_of_rows(points.gradient(place));
+        let speed = elastic.p_wave_speed() * stretch;
+        responses.set(place, &cauchy, 0.5 * stress.dot(strain), speed);
+    }
+    all_sound.then_some(responses)
+}
+
 /// Whether no direction carries a normal traction of `strength`: `σ₁ ≤ mean + 2√(J₂/3)`, with a
 /// margin for round-off, since the exact test decides at the surface.
-#[inline]
+#[inline(always)]
 pub(crate) fn below(strength: f64, stress: &Sym) -> bool {
     let reach = strength * (1.0 - 1e-9) - stress.mean();
-    reach > 0.0 && 4.0 * stress.j2() < 3.0 * reach * reach
+    (reach > 0.0) & (4.0 * stress.j2() < 3.0 * reach * reach)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Biot, contract::Random};
+    use crate::contract::Random;
     use fissure_tensor::rotation;
 
     const CONCRETE: Isotropic = Isotropic {

@@ -34,7 +34,9 @@ impl Study for BarEmbedded {
             match parameter.name {
                 "fill" => parameter.default = vec!["cell".into()],
                 // The body is elastic; the crack is a line through its middle.
-                "law" => *parameter = Parameter::choice("law", "of the body", "elastic", &["elastic"]),
+                "law" => {
+                    *parameter = Parameter::choice("law", "of the body", "elastic", &["elastic"])
+                }
                 _ => {}
             }
         }
@@ -152,8 +154,7 @@ fn break_embedded(case: &Parameters) -> Result<Run, StudyError> {
     let jumps = solver.embedded_jumps();
     let failed = jumps.iter().filter(|cell| cell.dissipated_fraction >= 0.5);
     let area: f64 = jumps.iter().map(|cell| cell.area).sum();
-    row.values
-        .insert("failed_cells", failed.count() as f64);
+    row.values.insert("failed_cells", failed.count() as f64);
     row.values.insert("cut_cells", jumps.len() as f64);
     row.values.insert("crack_area", area / exact.area);
     let motion = finished.scene.bodies()[0].motion();
@@ -166,7 +167,9 @@ fn break_embedded(case: &Parameters) -> Result<Run, StudyError> {
         .iter()
         .map(|stress| stress.traction(&normal).dot(&along) / exact.strength)
         .collect();
-    let most = shear.iter().fold(0.0_f64, |most, shear| most.max(shear.abs()));
+    let most = shear
+        .iter()
+        .fold(0.0_f64, |most, shear| most.max(shear.abs()));
     row.values.insert("greatest_shear", most);
     Ok(Run {
         row,

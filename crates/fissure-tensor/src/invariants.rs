@@ -4,7 +4,7 @@ use crate::Sym;
 
 impl Sym {
     /// Determinant.
-    #[inline]
+    #[inline(always)]
     pub fn determinant(&self) -> f64 {
         let (yz, xz, xy) = (self.yz(), self.xz(), self.xy());
         self.xx() * (self.yy() * self.zz() - yz * yz) - xy * (xy * self.zz() - yz * xz)
@@ -12,7 +12,7 @@ impl Sym {
     }
 
     /// Second invariant of the deviator, `J₂ = s:s/2`.
-    #[inline]
+    #[inline(always)]
     pub fn j2(&self) -> f64 {
         let s = self.deviator();
         0.5 * s.dot(&s)

@@ -63,32 +63,32 @@ impl Sym {
     }
 
     /// Component `xx`.
-    #[inline]
+    #[inline(always)]
     pub fn xx(&self) -> f64 {
         self.mandel[0]
     }
     /// Component `yy`.
-    #[inline]
+    #[inline(always)]
     pub fn yy(&self) -> f64 {
         self.mandel[1]
     }
     /// Component `zz`.
-    #[inline]
+    #[inline(always)]
     pub fn zz(&self) -> f64 {
         self.mandel[2]
     }
     /// Tensor component `yz`.
-    #[inline]
+    #[inline(always)]
     pub fn yz(&self) -> f64 {
         FRAC_1_SQRT_2 * self.mandel[3]
     }
     /// Tensor component `xz`.
-    #[inline]
+    #[inline(always)]
     pub fn xz(&self) -> f64 {
         FRAC_1_SQRT_2 * self.mandel[4]
     }
     /// Tensor component `xy`.
-    #[inline]
+    #[inline(always)]
     pub fn xy(&self) -> f64 {
         FRAC_1_SQRT_2 * self.mandel[5]
     }

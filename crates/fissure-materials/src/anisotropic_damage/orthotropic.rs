@@ -236,7 +236,6 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
     const HYPERELASTIC: bool = false;
     const STEP_ERROR: f64 = 0.0;
     const SPARSE: bool = true;
-    const STRESS_FROM_GRADIENT: bool = true;
     const NAMES: &'static [&'static str] = &["opening", "opened", "sheared", "left_over", "failed"];
 
     fn check(&self) -> Result<(), MaterialError> {

@@ -23,6 +23,8 @@ pub(crate) struct Nodes {
     pub straining: Field,
     /// Internal forces that accelerated the nodes, N, where they are asked for after the sums are made anew.
     pub forces: Field,
+    /// Energies of some nodes each, kept for their allocation.
+    energies: Vec<StepEnergy>,
 }
 
 /// What the nodes are given to move by.
@@ -69,7 +71,7 @@ impl<const D: usize> NodeForces<'_, D> {
                 reactions[condition] += reaction;
             }
         }
-        self.book_energy(&nodes.end, &mut energy);
+        self.book_energy(&nodes.end, &mut nodes.energies, &mut energy);
         let [contact, glued] = self.meetings.energy(sums, &nodes.end, &impulses);
         energy.contact = contact;
         energy.internal += glued;
@@ -92,13 +94,16 @@ impl<const D: usize> NodeForces<'_, D> {
         }
     }
 
-    fn book_energy(&self, end: &Field, energy: &mut StepEnergy) {
-        let partial: Vec<StepEnergy> = end
-            .par_chunks(CHUNK)
-            .enumerate()
-            .map(|(chunk, end)| self.chunk_energy(chunk * CHUNK, end))
-            .collect();
-        for part in partial {
+    fn book_energy(&self, end: &Field, parts: &mut Vec<StepEnergy>, energy: &mut StepEnergy) {
+        parts.resize(end.len().div_ceil(CHUNK), StepEnergy::default());
+        let chunks = end.par_chunks(CHUNK).enumerate();
+        chunks
+            .zip(parts.par_iter_mut())
+            .for_each(|((chunk, end), part)| {
+                *part = self.chunk_energy(chunk * CHUNK, end);
+            });
+        // In order, whatever the threads did.
+        for part in parts {
             energy.external += part.external;
             energy.internal += part.internal;
             energy.kinetic_grid_start += part.kinetic_grid_start;

@@ -9,6 +9,7 @@ mod contact;
 mod filter;
 mod grid_update;
 mod kernels;
+mod particle;
 mod phases;
 mod settings;
 mod step;

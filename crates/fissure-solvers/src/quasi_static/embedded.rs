@@ -126,10 +126,9 @@ impl<const D: usize> Embedded<D> {
                 permitted: "finite, not zero",
             });
         }
-        crack
-            .law
-            .check()
-            .map_err(|_| SolveError::Unsupported { what: "an embedded crack with a law outside its range" })?;
+        crack.law.check().map_err(|_| SolveError::Unsupported {
+            what: "an embedded crack with a law outside its range",
+        })?;
         Ok(Self {
             crack,
             normal: SVector::from_fn(|axis, _| crack.normal[axis.min(1)] / length),
@@ -227,7 +226,10 @@ impl<const D: usize> Embedded<D> {
                 _ => 0.0,
             })
         });
-        (gradients.collect(), h * h / (to - from).max(f64::MIN_POSITIVE))
+        (
+            gradients.collect(),
+            h * h / (to - from).max(f64::MIN_POSITIVE),
+        )
     }
 
     /// Adds what drives the jumps to the forces, and the energies of the crack.
@@ -244,7 +246,9 @@ impl<const D: usize> Embedded<D> {
             cell.after = cell.before;
             cell.after.jump += change;
             let answer = answer(&self.crack.law, &cell.after.jump, &normal, &cell.before.law)
-                .map_err(|_| SolveError::Unsupported { what: "a jump that is not finite" })?;
+                .map_err(|_| SolveError::Unsupported {
+                    what: "a jump that is not finite",
+                })?;
             cell.after.law = answer.state;
             cell.tangent = SMatrix::from_fn(|i, j| answer.tangent[(i, j)]);
             let resisting = SVector::<f64, D>::from_fn(|axis, _| answer.traction[axis]);
@@ -424,7 +428,8 @@ fn answer<const D: usize>(
     normal: &SVector<f64, D>,
     old: &TractionSeparationState,
 ) -> Result<Traction<TractionSeparationState>, fissure_materials::MaterialError> {
-    let in_space = |v: &SVector<f64, D>| Vector3::from_fn(|axis, _| if axis < D { v[axis] } else { 0.0 });
+    let in_space =
+        |v: &SVector<f64, D>| Vector3::from_fn(|axis, _| if axis < D { v[axis] } else { 0.0 });
     let (opening, normal) = (in_space(jump), in_space(normal));
     let mut answer = law.update(&Jump::new(opening, normal), old)?;
     let gap = opening.dot(&normal);

@@ -40,7 +40,12 @@ fn bar(direction: Vector2<f64>) -> Scene<2> {
     let spacing = Spacing(0.5 * H);
     let mut scene = Scene::plane(Plane::Strain { thickness: SIDE });
     scene
-        .fill("bar", ELASTIC, &Block::new([0.0, 0.0], [LENGTH, SIDE]), &spacing)
+        .fill(
+            "bar",
+            ELASTIC,
+            &Block::new([0.0, 0.0], [LENGTH, SIDE]),
+            &spacing,
+        )
         .unwrap();
     for (name, from, speed) in [("left", -2.0 * H, 0.0), ("right", LENGTH, 1.0)] {
         let grip = Block::new([from, 0.0], [from + 2.0 * H, SIDE]);
@@ -73,7 +78,9 @@ fn an_aligned_bar_follows_the_exact_curve() {
         let steps = 40;
         let end = 1.1 * CRITICAL;
         let step = end / f64::from(steps);
-        let mut solver = solver(step).with_embedded(crack(0.0, form, STRENGTH)).unwrap();
+        let mut solver = solver(step)
+            .with_embedded(crack(0.0, form, STRENGTH))
+            .unwrap();
         let modulus = ELASTIC.young / (1.0 - ELASTIC.poisson * ELASTIC.poisson);
         let area = SIDE * SIDE;
         for number in 1..=steps {
@@ -122,7 +129,11 @@ fn halves_move_apart_without_stress() {
 #[test]
 fn a_restarted_run_has_the_same_bits() {
     let form = EmbeddedForm::Optimal;
-    let make = || solver(0.1 * CRITICAL).with_embedded(crack(0.3, form, STRENGTH)).unwrap();
+    let make = || {
+        solver(0.1 * CRITICAL)
+            .with_embedded(crack(0.3, form, STRENGTH))
+            .unwrap()
+    };
     let direction = vector![0.3_f64.cos(), 0.3_f64.sin()];
     let run = |restart: bool| {
         let mut scene = bar(direction);
@@ -136,9 +147,14 @@ fn a_restarted_run_has_the_same_bits() {
                 solver.recall(&memory);
                 scene = again;
             }
-            solver.step(&mut scene, 0.1 * CRITICAL * f64::from(step)).unwrap();
+            solver
+                .step(&mut scene, 0.1 * CRITICAL * f64::from(step))
+                .unwrap();
         }
-        (scene.energy().dissipated, scene.bodies()[0].motion().position.to_vec())
+        (
+            scene.energy().dissipated,
+            scene.bodies()[0].motion().position.to_vec(),
+        )
     };
     let whole = run(false);
     assert!(whole.0 > 0.0);

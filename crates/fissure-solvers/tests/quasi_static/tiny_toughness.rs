@@ -35,7 +35,12 @@ fn toughness(times: f64) -> f64 {
 fn bar<M: fissure_materials::Material>(law: M) -> Result<Scene<2>, SceneError> {
     let spacing = Spacing(0.5 * H);
     let mut scene = Scene::plane(Plane::Strain { thickness: SIDE });
-    scene.fill("bar", law, &Block::new([0.0, 0.0], [LENGTH, SIDE]), &spacing)?;
+    scene.fill(
+        "bar",
+        law,
+        &Block::new([0.0, 0.0], [LENGTH, SIDE]),
+        &spacing,
+    )?;
     // The middle is weaker, so that the bar breaks there.
     let weak = Scale {
         strength: 0.9,
@@ -61,7 +66,10 @@ fn x3_without_toughness_enough_a_cell_is_refused_before_the_first_step() {
     for times in [1.01, 10.0, 1e3] {
         let mut scene = bar(law(toughness(times))).unwrap();
         let refused = solver().step(&mut scene, 1.0);
-        assert!(matches!(refused, Err(SolveError::Band { .. })), "{times}: {refused:?}");
+        assert!(
+            matches!(refused, Err(SolveError::Band { .. })),
+            "{times}: {refused:?}"
+        );
         assert_eq!(scene.step(), 0);
     }
     assert!(bar(law(0.0)).is_err());
@@ -88,6 +96,10 @@ fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
         let spent = scene.energy().dissipated / (0.81 * toughness(times) * SIDE * SIDE);
         eprintln!("{times}: {spent} {}", peak / strength);
         assert!((0.99..=6.0).contains(&spent), "{times}: {spent}");
-        assert!((0.9..=1.3).contains(&(peak / strength)), "{times}: {}", peak / strength);
+        assert!(
+            (0.9..=1.3).contains(&(peak / strength)),
+            "{times}: {}",
+            peak / strength
+        );
     }
 }
