@@ -4,13 +4,18 @@ use fissure_scene::EnergyTotals;
 
 /// The energy ledger of a scene and the three identities that it keeps apart.
 ///
-/// 1. `W_ext = ΔK_grid + f_int·Δu + contact + stabilisation`, step by step: the equations of motion of the grid. Holds to
-///    round-off in explicit steps; [`worst_balance`](Self::worst_balance) is by how much it did not.
-/// 2. `f_int·Δu = Δψ + ΔD` (and the work of artificial viscosity): the laws. Holds to first order
-///    in the step, for a law whose stress is the derivative of its stored energy;
-///    [`imbalance`](Self::imbalance) is the difference.
+/// 1. `W_ext = ΔK_grid + f_int·Δu + contact + stabilisation`, step by step: the equations of motion of the grid, with the
+///    displacement of the nodes by the mean of their velocities. Holds to round-off in explicit steps;
+///    [`worst_balance`](Self::worst_balance) is by how much it did not.
+/// 2. `f_int·Δu = Δψ + ΔD` (and the work of artificial viscosity): the laws, with the displacement that strains the
+///    particles and the mean force of the step. Holds to second order in the step, for a law whose stress is the
+///    derivative of its stored energy; [`imbalance`](Self::imbalance) is the difference.
 /// 3. `K_grid = K_particles`: the transfer. Never holds exactly, since particles have more freedom
-///    than nodes; [`transfer_loss`](Self::transfer_loss) is the difference, summed over both ways.
+///    than nodes; [`transfer_loss`](Self::transfer_loss) is the difference, summed over both ways. K is taken at the time
+///    of the stresses, from which the velocities of explicit steps are half a step away
+///    ([`half_step`](Self::half_step)): then the first two say how it changes.
+///
+/// Together, of a scene that starts at rest: `W_ext = K + half_step + f_int·Δu + contact + stabilisation + transfer_loss`.
 ///
 /// ```
 /// use fissure_diagnostics::EnergyBalance;
@@ -25,7 +30,7 @@ use fissure_scene::EnergyTotals;
 pub struct EnergyBalance {
     /// W_ext: work of loads, body forces and prescribed velocities, J.
     pub external: f64,
-    /// Σ f_int·Δu: work of the internal forces on the nodes, J; positive when it is taken up.
+    /// Σ f_int·Δu: work of the internal forces on what strains the particles, J; positive when it is taken up.
     pub internal: f64,
     /// ψ: stored energy now, J.
     pub stored: f64,
@@ -39,11 +44,13 @@ pub struct EnergyBalance {
     pub stabilisation: f64,
     /// K_particles: kinetic energy of the particles now, J.
     pub kinetic: f64,
-    /// Σ ΔK_grid = W_ext − Σ f_int·Δu − contact − stabilisation: what the steps gave to the grid as kinetic energy, J. In a
-    /// quasi-static run, which has none, it is the error of the first identity.
+    /// Kinetic energy at the time of the stresses less K_particles, J.
+    pub half_step: f64,
+    /// W_ext − Σ f_int·Δu − contact − stabilisation: what the steps gave as kinetic energy, at the time of the stresses, J.
+    /// In a quasi-static run, which has none, it is the error of the first identity.
     pub grid_kinetic_gain: f64,
-    /// Σ (K_grid − K_particles) after the steps less the same before them: kinetic energy lost
-    /// between particles and grid, J. Numerical dissipation of the transfer, mostly of PIC, APIC
+    /// Σ (K_grid − K_particles) after the steps less the same before them, K at the time of the stresses: kinetic energy
+    /// lost between particles and grid, J. Numerical dissipation of the transfer, mostly of PIC, APIC
     /// and XPIC.
     pub transfer_loss: f64,
     /// `f_int·Δu − ψ − D − viscous`, J: the error of the laws' time integration, of a scene that
@@ -65,6 +72,7 @@ impl EnergyBalance {
             contact: totals.contact,
             stabilisation: totals.stabilisation,
             kinetic: totals.kinetic,
+            half_step: totals.half_step,
             grid_kinetic_gain: totals.external
                 - totals.internal
                 - totals.contact

@@ -39,7 +39,7 @@ pub struct EnergyHistory {
 /// A column of the history: its label and what it takes from a ledger.
 type Column = (&'static str, fn(&EnergyTotals) -> f64);
 
-const COLUMNS: [Column; 11] = [
+const COLUMNS: [Column; 12] = [
     ("external [J]", |e| e.external),
     ("internal [J]", |e| e.internal),
     ("stored [J]", |e| e.stored),
@@ -48,6 +48,7 @@ const COLUMNS: [Column; 11] = [
     ("contact [J]", |e| e.contact),
     ("stabilisation [J]", |e| e.stabilisation),
     ("kinetic [J]", |e| e.kinetic),
+    ("half step [J]", |e| e.half_step),
     ("transfer loss [J]", |e| e.transfer_loss),
     ("imbalance [J]", EnergyTotals::imbalance),
     ("worst balance", |e| e.worst_balance),

@@ -76,6 +76,9 @@ where
         energy.stored > 1e-4 * start || case.transfer == Transfer::Pic,
         "{case:?}: at rest"
     );
+    // Every joule is in a column.
+    let all = energy.kinetic + energy.half_step + energy.internal + energy.transfer_loss;
+    assert!((all / start - 1.0).abs() <= 1e-10, "{case:?}: {energy:?}");
     Outcome {
         balance: energy.worst_balance,
         imbalance: energy.imbalance() / start,
@@ -93,7 +96,7 @@ where
     for (outcome, cfl) in outcomes.iter().zip(STEPS) {
         assert!(outcome.balance <= 1e-12, "{case:?}: {:e}", outcome.balance);
         let imbalance = outcome.imbalance.abs() / cfl;
-        assert!(imbalance <= 1.4, "{case:?}: imbalance {imbalance} per cfl");
+        assert!(imbalance <= 0.02, "{case:?}: imbalance {imbalance} per cfl");
         // Particles hold velocities half a step behind their stresses, which shows in the sum of
         // the energies to first order; the finest wave of the coarse block in space has 4 cells.
         let bound = if D == 3 { 0.45 } else { 0.3 };
@@ -103,20 +106,7 @@ where
             "{case:?}: energy grows by {growth} per cfl"
         );
     }
-    // A damped wave that reaches the cell size dies at its own rate, whatever the step: those
-    // fall slower than the first order at first. Small imbalances are differences of two signs.
-    let mean = 0.5 * (orders[0] + orders[1]);
-    let flip = case.transfer == Transfer::Flip { pic: 0.0 };
-    if flip && case.update == StressUpdate::First {
-        assert!(
-            orders.iter().all(|order| *order >= 0.95),
-            "{case:?}: {orders:?}"
-        );
-    } else if (flip || case.update == StressUpdate::Last) && imbalance[0].abs() > 0.03 {
-        // With the other updates the particles' velocities strain, and what a dissipative transfer
-        // took from them since the nodes did their work is in the imbalance at any step.
-        assert!(mean >= 0.6, "{case:?}: {orders:?}");
-    }
+    println!("{case:?}: imbalance {imbalance:?}, orders {orders:?}");
 }
 
 #[test]
@@ -135,16 +125,19 @@ fn d5_ledger_of_a_vibrating_block_in_space() {
 }
 
 #[test]
-fn d5_imbalance_of_the_stress_last_is_of_first_order_in_the_limit() {
+fn d5_imbalance_is_of_second_order() {
     for shape in ShapeKind::ALL {
-        let case = Case {
-            space: Space::Plane,
-            shape,
-            transfer: Transfer::Flip { pic: 0.0 },
-            update: StressUpdate::Last,
-        };
-        let imbalance = [0.1, 0.05, 0.025].map(|cfl| vibrate::<2>(&case, cfl).imbalance);
-        let orders = observed_orders(&imbalance);
-        assert!(orders[1] >= 0.83, "{shape:?}: {orders:?}");
+        for update in [StressUpdate::First, StressUpdate::Last, StressUpdate::Musl] {
+            let case = Case {
+                space: Space::Plane,
+                shape,
+                transfer: Transfer::Flip { pic: 0.0 },
+                update,
+            };
+            let imbalance = [0.1, 0.05, 0.025].map(|cfl| vibrate::<2>(&case, cfl).imbalance);
+            let orders = observed_orders(&imbalance);
+            println!("{shape:?} {update:?}: {imbalance:?}, orders {orders:?}");
+            assert!(orders[1] >= 1.8, "{shape:?} {update:?}: {orders:?}");
+        }
     }
 }

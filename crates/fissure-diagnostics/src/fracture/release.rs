@@ -12,7 +12,7 @@ use crate::error::check_positive;
 /// G = (ΔW_ext − Δψ − ΔK − ΔD − ΔV − ΔC − ΔL)/ΔA                                              (3)
 /// ```
 ///
-/// with the changes of external work, stored and kinetic energy, the laws' dissipation, artificial
+/// with the changes of external work, stored and kinetic energy (at the time of the stresses), the laws' dissipation, artificial
 /// viscosity, what contacts and stabilising forces took, and transfer loss between two ledgers. For virtual crack closure they are those of two
 /// quasi-static scenes that differ by the crack's length only, or of one before and after its tip
 /// has moved and equilibrium is found again: central in the length, so take it as G at the middle of
@@ -29,7 +29,7 @@ pub fn energy_release(
     check_positive("area by which the crack has grown", area)?;
     let kept = |e: &EnergyTotals| {
         let spent = e.dissipated + e.viscous + e.contact + e.stabilisation + e.transfer_loss;
-        e.external - e.stored - e.kinetic - spent
+        e.external - e.stored - e.kinetic - e.half_step - spent
     };
     let release = (kept(after) - kept(before)) / area;
     if release.is_finite() {
