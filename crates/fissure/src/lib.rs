@@ -76,12 +76,13 @@ pub mod prelude {
     };
     pub use fissure_particles::*;
     pub use fissure_scene::*;
-    pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     #[cfg(feature = "implicit")]
     pub use fissure_solvers::{
-        Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, Implicit, ImplicitSettings, Integration, Iterative, LinearSolver, LoadControl, Method,
-        NewtonStop, Preconditioning, Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
+        Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, Implicit, ImplicitSettings,
+        Integration, Iterative, LinearSolver, LoadControl, Method, NewtonStop, Preconditioning,
+        Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
     };
+    pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
     // The module too: `vector!` expands to paths into it.
     pub use nalgebra::{self, SVector, Vector2, vector};

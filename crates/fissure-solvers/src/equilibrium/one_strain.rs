@@ -128,7 +128,8 @@ impl<const D: usize> Links<D> {
         self.arms.resize(self.links.len(), SVector::zeros());
         self.firmness.clear();
         for patch in 0..self.patches() {
-            let members = self.member_starts[patch] as usize..self.member_starts[patch + 1] as usize;
+            let members =
+                self.member_starts[patch] as usize..self.member_starts[patch + 1] as usize;
             let count = (self.node_starts[patch + 1] - self.node_starts[patch]) as usize;
             let mut means = vec![SVector::<f64, D>::zeros(); count];
             let (mut weights, mut work, mut strains) = (0.0, 0.0, 0.0);

@@ -133,7 +133,12 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         let (band, dt) = (self.settings.band, self.settings.step);
         self.system.further.clear();
         let links = &mut self.system.links;
-        links.average_as(self.settings.averaging, scene, &self.deviations, still.len());
+        links.average_as(
+            self.settings.averaging,
+            scene,
+            &self.deviations,
+            still.len(),
+        );
         links.increase(scene, &still);
         strain(
             scene,
@@ -177,7 +182,10 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     fn check_kinematics(&self, scene: &Scene<D>) -> Result<(), SolveError> {
         let refuse = |what| Err(SolveError::Unsupported { what });
         let kinematics = scene.kinematics();
-        let whole = matches!(kinematics, Kinematics::PlaneStrain { .. } | Kinematics::Solid);
+        let whole = matches!(
+            kinematics,
+            Kinematics::PlaneStrain { .. } | Kinematics::Solid
+        );
         let axial = kinematics == Kinematics::Axisymmetric;
         match self.settings.averaging {
             Averaging::Volume if !whole => {
@@ -186,7 +194,9 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             Averaging::Strain { .. } if axial => refuse("averaging strains in axisymmetry"),
             _ if self.embedded.is_none() => Ok(()),
             _ if axial => refuse("an embedded crack in axisymmetry"),
-            _ if !scene.cracks().is_empty() => refuse("an embedded crack beside cracks of the scene"),
+            _ if !scene.cracks().is_empty() => {
+                refuse("an embedded crack beside cracks of the scene")
+            }
             Averaging::None => Ok(()),
             _ => refuse("an embedded crack with averages over cells"),
         }
@@ -283,7 +293,9 @@ impl QuasiStatic<fissure_grid::shape::Linear, 2> {
     /// The embedded crack, cell by cell; nothing without one.
     pub fn embedded_jumps(&self) -> Vec<EmbeddedJump> {
         let embedded = self.embedded.iter();
-        embedded.flat_map(|embedded| embedded.jumps(&self.grid)).collect()
+        embedded
+            .flat_map(|embedded| embedded.jumps(&self.grid))
+            .collect()
     }
 }
 

@@ -198,9 +198,7 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
         links.increase(self.scene, self.displacement);
         let (band, dt) = (self.settings.band, self.dt);
         let (transfers, u) = (&self.transfers, self.displacement.as_slice());
-        Ok(strain(
-            self.scene, transfers, u, band, dt, links, tangents,
-        )?)
+        Ok(strain(self.scene, transfers, u, band, dt, links, tangents)?)
     }
 
     /// Strains the particles and sums what is left of the forces.

@@ -30,7 +30,12 @@ fn block(plane: Plane) -> Scene<2> {
     let spacing = Spacing(0.5 * CELL);
     let mut scene = Scene::plane(plane);
     scene
-        .fill("block", law, &Block::new([0.03, 0.01], [1.03, 0.76]), &spacing)
+        .fill(
+            "block",
+            law,
+            &Block::new([0.03, 0.01], [1.03, 0.76]),
+            &spacing,
+        )
         .unwrap()
         .rigid(
             "wall",
@@ -63,7 +68,9 @@ fn newton_converges_quadratically_and_works_balance() {
         let report = solver.step(&mut scene, 0.1 * f64::from(step)).unwrap();
         let residuals = &solver.statistics().residuals;
         assert!(report.iterations <= 4, "{residuals:?}");
-        let near = residuals.windows(2).filter(|pair| pair[0] <= 1e-2 && pair[1] >= 1e-12);
+        let near = residuals
+            .windows(2)
+            .filter(|pair| pair[0] <= 1e-2 && pair[1] >= 1e-12);
         for pair in near {
             assert!(pair[1] <= 0.1 * pair[0].powi(2) + 1e-12, "{residuals:?}");
         }
@@ -77,7 +84,10 @@ fn newton_converges_quadratically_and_works_balance() {
         ((stored + held) / external - 1.0).abs() <= 0.02,
         "{stored} and {held} of {external}"
     );
-    assert!(held > 0.0 && held <= 0.05 * external, "{held} of {external}");
+    assert!(
+        held > 0.0 && held <= 0.05 * external,
+        "{held} of {external}"
+    );
 }
 
 #[test]
@@ -111,6 +121,12 @@ fn what_makes_no_sense_is_refused() {
             ..QuasiStaticSettings::default()
         };
         let refused = QuasiStatic::new(grid, shape::Linear, settings);
-        assert!(matches!(refused, Err(SolveError::Setting { setting: "hourglass", .. })));
+        assert!(matches!(
+            refused,
+            Err(SolveError::Setting {
+                setting: "hourglass",
+                ..
+            })
+        ));
     }
 }

@@ -109,11 +109,7 @@ fn one_strain(
 ) -> Result<Box<dyn Solver<2>>, StudyError> {
     if method.is_dynamic() {
         let reason = "cells have one strain in quasi-static runs only";
-        return Err(StudyError::combination(
-            case,
-            &["solver", "strain"],
-            reason,
-        ));
+        return Err(StudyError::combination(case, &["solver", "strain"], reason));
     }
     let hourglass = case.number("hourglass")?;
     let settings = QuasiStaticSettings {
