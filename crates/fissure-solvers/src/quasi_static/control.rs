@@ -4,6 +4,7 @@ use fissure_grid::{Shape, simd::Simd};
 use fissure_scene::{NewtonStop, Scene, StepControl};
 use nalgebra::SVector;
 
+use super::embedded::Embedded;
 use super::newton::balanced;
 use super::path::{Goal, follow};
 use super::settings::LoadControl;
@@ -46,9 +47,8 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             .find(&transfers, scene, &self.release)
             .map_err(|failed| off_grid(scene, failed))?;
         self.system.links.joined = self.faces.joined();
-        if let Some(embedded) = &self.embedded {
-            self.system.links.sides = embedded.sides(grid, &self.placement);
-        }
+        let divide = |embedded: &Embedded<D>| embedded.divide(grid, &self.placement);
+        self.system.links.divide = self.embedded.as_ref().map(divide);
         self.system
             .find(&transfers, scene, &self.constraints)
             .map_err(|failed| off_grid(scene, failed))?;

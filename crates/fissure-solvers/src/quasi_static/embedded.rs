@@ -13,7 +13,9 @@
 //! particles' stresses by `∇N`, as ever. What is left is the traction on the crack, `t(w)` by a cohesive law:
 //!
 //! - *Optimal* (statically and kinematically optimal, not symmetric): `t(w) = Σ V σ·n/Σ V`, the mean over the cell's
-//!   particles. The tangent is not symmetric, since `w` acts by `∇φ` and answers to `n`.
+//!   particles. The tangent is not symmetric, since `w` acts by `∇φ` and answers to `n`. Where these are far apart, as in a cell
+//!   of which the crack or the side of the body leaves a corner, they hold no jump [Jirasek 2000]: cells with less than half
+//!   of the greatest `A` share the jump of a neighbour, and the mean is over both.
 //! - *Local*, as the document has it: `t` is the traction of an elastic-decohesive point in the middle `X_e` of the crack's
 //!   piece `ℓ_e` in the cell, that smears its opening over `L_c = Ω_e/ℓ_e` [eq. 5.5.68]. Its elastic strain is
 //!   `(Σ u_i ⊗ ∇N_i(X_e) − w ⊗ n/L_c)^S`, small, while particles have the one above. The opening is along `n`. Where
@@ -30,7 +32,7 @@ use fissure_materials::{
 use fissure_scene::{Scene, SolveError, SweepTotals};
 use nalgebra::{SMatrix, SVector, Vector2, Vector3};
 
-use crate::equilibrium::links::{Cut, Links};
+use crate::equilibrium::links::{Cut, Divide, Links};
 use crate::equilibrium::stiffness::{PatchRates, patch_rates};
 use crate::equilibrium::system::Block;
 use crate::nodes::NodeSums;
@@ -71,6 +73,9 @@ pub struct EmbeddedJump {
     pub area: f64,
 }
 
+/// Share of the greatest area of a cell below which it has its neighbour's jump.
+const LEAST_AREA: f64 = 0.5;
+
 /// What a cell's crack has been through.
 #[derive(Clone, Copy, Debug)]
 struct History<const D: usize> {
@@ -98,17 +103,19 @@ pub(super) struct Embedded<const D: usize> {
     normal: SVector<f64, D>,
     /// By the corner of the cell.
     histories: BTreeMap<[i32; D], History<D>>,
-    /// One for each cut, in the step.
+    /// One for each cut, in the step; those of one jump stand together.
     cells: Vec<Cell<D>>,
 }
 
-/// A cut in a step.
+/// A cut in a step. Those of one jump have one history.
 struct Cell<const D: usize> {
     corner: [i32; D],
     before: History<D>,
     after: History<D>,
-    /// `Σ V`, m³.
+    /// `Σ V` of all cells with its jump, m³.
     volume: f64,
+    /// `A` of all cells with its jump, m².
+    whole: f64,
     /// Gradients of the nodes at the middle of the crack's piece, and `L_c`, m (local form).
     middle: Vec<SVector<f64, D>>,
     width: f64,
@@ -138,11 +145,17 @@ impl<const D: usize> Embedded<D> {
     }
 
     /// On which side nodes are.
-    pub(super) fn sides(&self, grid: &Grid<D>, placement: &Placement<D>) -> Vec<bool> {
+    pub(super) fn divide(&self, grid: &Grid<D>, placement: &Placement<D>) -> Divide<D> {
         let point = SVector::<f64, D>::from_fn(|axis, _| self.crack.point[axis.min(1)]);
-        (0..placement.node_count())
-            .map(|node| (placement.node_position(grid, node) - point).dot(&self.normal) >= 0.0)
-            .collect()
+        let side = |node| (placement.node_position(grid, node) - point).dot(&self.normal) >= 0.0;
+        Divide {
+            normal: self.normal,
+            sides: (0..placement.node_count()).map(side).collect(),
+            least_area: match self.crack.form {
+                EmbeddedForm::Optimal => LEAST_AREA,
+                EmbeddedForm::Local(_) => f64::NEG_INFINITY,
+            },
+        }
     }
 
     /// Begins a step.
@@ -163,31 +176,47 @@ impl<const D: usize> Embedded<D> {
                 ((low[axis] - grid.origin()[axis]) / grid.spacing()).round() as i32
             });
             let mut before = self.histories.get(&corner).copied().unwrap_or_default();
-            let (mut volume, mut area) = (0.0, 0.0);
             let patch = links.patch(cut.patch);
-            for member in patch.members {
+            let volumes = patch.members.iter().map(|member| {
                 let particles = scene.bodies()[member.body as usize].particles();
-                let row = member.index as usize;
-                let here = particles.volume[row]
-                    * particles.motion.deformation_gradient[row].determinant();
-                volume += here;
-                let beyond = patch.links(member).iter().zip(&cut.nodes);
-                let slope = beyond.filter(|(_, node)| node.1);
-                area += slope
-                    .map(|(link, _)| here * link.gradient.dot(&self.normal))
-                    .sum::<f64>();
-            }
-            before.area = area;
+                let f_old = &particles.motion.deformation_gradient[member.index as usize];
+                particles.volume[member.index as usize] * f_old.determinant()
+            });
+            let volume = volumes.sum();
+            before.area = cut.area;
             let (middle, width) = self.middle(&low, &places, grid.spacing());
             self.cells.push(Cell {
                 corner,
                 before,
                 after: before,
                 volume,
+                whole: cut.area,
                 middle,
                 width,
                 tangent: SMatrix::zeros(),
             });
+        }
+        // What cells of one jump have been through is what the one with the most area has.
+        for group in groups(links) {
+            let volume = self.cells[group.clone()]
+                .iter()
+                .map(|cell| cell.volume)
+                .sum();
+            let area = |cell: &&Cell<D>| cell.before.area;
+            let cells = self.cells[group.clone()].iter();
+            let Some(most) = cells.max_by(|a, b| area(a).total_cmp(&area(b))) else {
+                continue;
+            };
+            let most = most.before;
+            let whole = links.cuts[group.clone()].iter().map(|cut| cut.area).sum();
+            for cell in &mut self.cells[group] {
+                (cell.volume, cell.whole) = (volume, whole);
+                cell.before = History {
+                    area: cell.before.area,
+                    ..most
+                };
+                cell.after = cell.before;
+            }
         }
     }
 
@@ -241,19 +270,23 @@ impl<const D: usize> Embedded<D> {
         sums: &NodeSums<D>,
     ) -> Result<(), SolveError> {
         let normal = self.normal;
+        let refused = |_| SolveError::Unsupported {
+            what: "a jump that is not finite",
+        };
         for (cut, cell) in links.cuts.iter().zip(&mut self.cells) {
             let change = displacement[cut.node as usize];
             cell.after = cell.before;
             cell.after.jump += change;
             let answer = answer(&self.crack.law, &cell.after.jump, &normal, &cell.before.law)
-                .map_err(|_| SolveError::Unsupported {
-                    what: "a jump that is not finite",
-                })?;
+                .map_err(refused)?;
             cell.after.law = answer.state;
             cell.tangent = SMatrix::from_fn(|i, j| answer.tangent[(i, j)]);
             let resisting = SVector::<f64, D>::from_fn(|axis, _| answer.traction[axis]);
             let pull = match self.crack.form {
-                EmbeddedForm::Optimal => mean_traction(links, cut, scene, &normal),
+                EmbeddedForm::Optimal => {
+                    // This cell's part of the mean; the area of the whole jump is at its other factor.
+                    pull_of(links, cut, scene, &normal) / cell.volume
+                }
                 EmbeddedForm::Local(elastic) => {
                     let nodes = cut.nodes.iter().zip(&cell.middle);
                     for (&(node, _), gradient) in nodes {
@@ -266,7 +299,7 @@ impl<const D: usize> Embedded<D> {
                     normal * normal.dot(&traction)
                 }
             };
-            let force = (pull - resisting) * cell.before.area;
+            let force = pull * cell.whole - resisting * cell.before.area;
             let mut numbers = [0.0; SUMS];
             numbers[NodeSums::<D>::FORCE..NodeSums::<D>::FORCE + D]
                 .copy_from_slice(force.as_slice());
@@ -321,7 +354,7 @@ impl<const D: usize> Embedded<D> {
                 });
                 let by_node = match self.crack.form {
                     EmbeddedForm::Optimal => {
-                        let rate = tractions[place] * (area / cell.volume);
+                        let rate = tractions[place] * (cell.whole / cell.volume);
                         if cut.nodes[place].1 {
                             of_jump += rate;
                         }
@@ -452,14 +485,27 @@ fn traction<const D: usize>(
     normal * (lambda * gradient.trace()) + (gradient + gradient.transpose()) * normal * shear
 }
 
-/// Mean traction of the particles of a cell, Pa.
-fn mean_traction<const D: usize>(
+/// Runs of cuts with one jump.
+fn groups<const D: usize>(links: &Links<D>) -> Vec<std::ops::Range<usize>> {
+    let mut start = 0;
+    let chunks = links.cuts.chunk_by(|a, b| a.node == b.node);
+    chunks
+        .map(|chunk| {
+            let range = start..start + chunk.len();
+            start = range.end;
+            range
+        })
+        .collect()
+}
+
+/// Tractions of the particles of a cell times their volumes, N·m.
+fn pull_of<const D: usize>(
     links: &Links<D>,
     cut: &Cut,
     scene: &Scene<D>,
     normal: &SVector<f64, D>,
 ) -> SVector<f64, D> {
-    let (mut sum, mut volumes) = (SVector::zeros(), 0.0);
+    let mut sum = SVector::zeros();
     for member in links.patch(cut.patch).members {
         let particles = scene.bodies()[member.body as usize].particles();
         let row = member.index as usize;
@@ -467,7 +513,6 @@ fn mean_traction<const D: usize>(
             particles.volume[row] * particles.trial.deformation_gradient[row].determinant();
         let stress = particles.trial.stress[row].to_matrix();
         sum += SMatrix::<f64, D, D>::from_fn(|i, j| stress[(i, j)]) * normal * volume;
-        volumes += volume;
     }
-    sum / volumes
+    sum
 }
