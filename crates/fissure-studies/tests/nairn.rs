@@ -123,7 +123,9 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
     assert!((value("failed_rows") - 2.0).abs() < 0.15, "{}", rows[0]);
     // Each failed row takes the toughness.
     assert!((value("spent_by_failed") / value("failed_rows") - 1.0).abs() < 0.1);
-    assert!(value("spent_by_wake") > 0.1 && value("spent_by_wake") < 1.0);
+    // Of steady growth: the zone that softens ahead of the tip is no part of it.
+    let wake = value("spent_by_wake");
+    assert!(wake > 0.0 && wake < 0.3, "{}", rows[0]);
     assert!(
         value("far_j_at_onset") > value("spent_by_failed"),
         "{}",
@@ -172,7 +174,8 @@ fn correlation_lowers_the_strength_of_a_block() {
     assert_eq!(tests.len(), 4);
     for set in sets {
         let mean = number(set, "values", "mean_over_nominal");
-        assert!(mean > 0.8 && mean < 1.0, "{set}");
+        // Waves across five cells of 2 mm add 3 %.
+        assert!(mean > 0.9 && mean < 1.035, "{set}");
         assert_eq!(number(set, "values", "reached"), 1.0);
     }
     for test in tests.iter().filter(|test| {
