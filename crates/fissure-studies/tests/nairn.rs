@@ -143,10 +143,10 @@ fn without_scatter_the_strength_of_a_block_does_not_depend_on_the_grid() {
     let mut arguments = vec!["--quick"];
     arguments.extend(set.iter().flat_map(|set| ["--set", *set]));
     let rows = rows("random-block", &arguments);
-    let strength = |i: usize| number(&rows[i], "values", "mean_over_nominal");
     // What the plate holds, h/length of the block, was missing: 10 % on the coarse grid.
-    for i in 0..2 {
-        assert!((strength(i) - 1.0).abs() < 0.035, "{}", rows[i]);
+    for row in &rows[..2] {
+        let strength = number(row, "values", "mean_over_nominal");
+        assert!((strength - 1.0).abs() < 0.035, "{row}");
     }
 }
 
