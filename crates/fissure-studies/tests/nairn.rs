@@ -130,7 +130,9 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
     assert!((value("failed_rows") - 2.0).abs() < 0.15, "{}", rows[0]);
     // Each failed row takes the toughness.
     assert!((value("spent_by_failed") / value("failed_rows") - 1.0).abs() < 0.1);
-    assert!(value("spent_by_wake") > 0.1 && value("spent_by_wake") < 1.0);
+    // Of steady growth: the zone that softens ahead of the tip is no part of it.
+    let wake = value("spent_by_wake");
+    assert!(wake > 0.0 && wake < 0.3, "{}", rows[0]);
     assert!(
         value("far_j_at_onset") > value("spent_by_failed"),
         "{}",
@@ -148,10 +150,10 @@ fn without_scatter_the_strength_of_a_block_does_not_depend_on_the_grid() {
     let mut arguments = vec!["--quick"];
     arguments.extend(set.iter().flat_map(|set| ["--set", *set]));
     let rows = rows("random-block", &arguments);
-    let strength = |i: usize| number(&rows[i], "values", "mean_over_nominal");
     // What the plate holds, h/length of the block, was missing: 10 % on the coarse grid.
-    for i in 0..2 {
-        assert!((strength(i) - 1.0).abs() < 0.035, "{}", rows[i]);
+    for row in &rows[..2] {
+        let strength = number(row, "values", "mean_over_nominal");
+        assert!((strength - 1.0).abs() < 0.035, "{row}");
     }
 }
 
@@ -179,7 +181,8 @@ fn correlation_lowers_the_strength_of_a_block() {
     assert_eq!(tests.len(), 4);
     for set in sets {
         let mean = number(set, "values", "mean_over_nominal");
-        assert!(mean > 0.8 && mean < 1.0, "{set}");
+        // Waves across five cells of 2 mm add 3 %.
+        assert!(mean > 0.9 && mean < 1.035, "{set}");
         assert_eq!(number(set, "values", "reached"), 1.0);
     }
     for test in tests.iter().filter(|test| {

@@ -43,10 +43,9 @@ impl Pictures {
         let Some(folder) = folder else {
             return Ok(());
         };
-        let mut plot =
-            LinePlot::new("Apparent toughness: J far from the tip when the first particle fails")
-                .x_label("spacing over the length of the process zone [1]")
-                .y_label("J/G_c [1]");
+        let mut plot = LinePlot::new("J far from the tip at the first failure")
+            .x_label("spacing over the length of the process zone [1]")
+            .y_label("J/G_c [1]");
         let mut chart = ErrorChart::new(
             "Apparent toughness against run time",
             "wall time [s]",
