@@ -1,5 +1,7 @@
 //! The ledger of a ringing block: the laws' work but for little that falls with the step, and every joule in a column.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use fissure_grid::{Grid, Shape, shape};
 use fissure_materials::{Hencky, Isotropic};
 use fissure_particles::{Block, Spacing};
