@@ -8,7 +8,7 @@ use fissure_scene::EnergyTotals;
 ///    displacement of the nodes by the mean of their velocities. Holds to round-off in explicit steps;
 ///    [`worst_balance`](Self::worst_balance) is by how much it did not.
 /// 2. `f_int·Δu = Δψ + ΔD` (and the work of artificial viscosity): the laws, with the displacement that strains the
-///    particles and the mean force of the step. Holds to second order in the step, for a law whose stress is the
+///    particles and the mean force of the step. Holds but for little that falls with the step, for a law whose stress is the
 ///    derivative of its stored energy; [`imbalance`](Self::imbalance) is the difference.
 /// 3. `K_grid = K_particles`: the transfer. Never holds exactly, since particles have more freedom
 ///    than nodes; [`transfer_loss`](Self::transfer_loss) is the difference, summed over both ways. K is taken at the time

@@ -10,7 +10,7 @@ use crate::solution::Solution;
 /// The ledger keeps apart what is an identity from what is an approximation:
 /// `external = Δkinetic_grid + internal + staggering + contact + stabilisation` holds to round-off in an explicit step (in a
 /// quasi-static one to what equilibrium and the fresh grid of the next step leave);
-/// `internal = Δstored + dissipated + viscous` to second order in the step; what the transfer between particles and grid
+/// `internal = Δstored + dissipated + viscous` but for little that falls with the step; what the transfer between particles and grid
 /// loses is `kinetic_grid − kinetic_particles`, with the kinetic energy taken at the time of the stresses: velocities of an
 /// explicit step are half a step away from it (`staggering`, `half_step`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -44,11 +44,14 @@ pub struct BondAnswer {
     pub state: Vec<u8>,
 }
 
+/// Says of a place whether it is one of some.
+type Places = dyn Fn(&Vector2<f64>) -> bool + Send + Sync;
+
 /// A cohesive law between the faces of a crack.
 #[derive(Clone)]
 pub struct Bond {
     law: Arc<dyn ErasedLaw>,
-    acts: Arc<dyn Fn(&Vector2<f64>) -> bool + Send + Sync>,
+    acts: Arc<Places>,
 }
 
 impl Bond {

@@ -10,8 +10,8 @@
 //! half step   B = −½ Δt Σ f⁺·v_e  (stress first),   ½ Δt Σ f⁺·v  (last, MUSL)                        (3)
 //! ```
 //!
-//! with the forces `f` that accelerated the nodes: `f⁺` with the stress first, else `f⁻`. `W` is what the laws take up, to
-//! second order in the step. Stresses are at times between those of the velocities; the kinetic energy at theirs is
+//! with the forces `f` that accelerated the nodes: `f⁺` with the stress first, else `f⁻`. `W` is what the laws take up,
+//! but for a part of second order in the step and one of first order times the strain. Stresses are at times between those of the velocities; the kinetic energy at theirs is
 //! `K + B`, and that is what particles and grid exchange: what they lose is
 //! `Σ (K + B)` before less after a transfer. If they lose nothing, `S` is the change of `B` in the step, and `K + B + ψ` of a
 //! linear body is constant to round-off (the energy of the leapfrog scheme). A stress that rings at the scale of the grid

@@ -263,8 +263,8 @@ impl<
                         columns: [[0.0; FIELD]; D],
                         hoop,
                     };
-                    for j in 0..D {
-                        strain.columns[j] = lanes.store4(change[j]);
+                    for (column, change) in strain.columns.iter_mut().zip(change) {
+                        *column = lanes.store4(change);
                     }
                     if pass.backward {
                         let volume = constants.volume[row] * f.determinant();
