@@ -39,7 +39,7 @@ use fissure_scene::PersistError;
 use crate::FileError;
 
 /// The format this crate writes; [`CheckpointReader`] reads this one only.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Why a checkpoint could not be written or was refused.
 #[derive(Debug, thiserror::Error)]
