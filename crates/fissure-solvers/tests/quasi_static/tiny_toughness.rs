@@ -94,7 +94,7 @@ fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
             assert!(energy.dissipated <= energy.external * (1.0 + 1e-9) + 1e-15);
         }
         let spent = scene.energy().dissipated / (0.81 * toughness(times) * SIDE * SIDE);
-        // Waves from the crack may open its neighbours: at 1000 times the limit 6.5 cracks.
+        // Waves from the crack may open its neighbours: at 1000 times the limit, 6.5 cracks.
         assert!(spent >= 0.99, "{times}: {spent}");
         let peak = peak / strength;
         assert!((0.8..=1.3).contains(&peak), "{times}: {peak}");
