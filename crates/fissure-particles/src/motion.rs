@@ -11,7 +11,8 @@ use crate::order::gather;
 /// The columns which a step writes, one row per particle.
 ///
 /// A body has two of these, the present and the trial: a step reads one, writes the other and swaps
-/// them, so that a failed step leaves the present as it was. Space has `D` dimensions; the
+/// them, so that a failed step leaves the present as it was. A step [in place](Motion::slices_in_place) has positions and
+/// deformation gradients twice and writes over the rest. Space has `D` dimensions; the
 /// deformation gradient and the stress are 3-D always, and plane strain keeps F₃₃ = 1.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion<const D: usize> {
