@@ -225,12 +225,7 @@ pub(crate) fn row(
 }
 
 /// The same without what only a law that cracks can tell.
-fn measured(
-    study: &str,
-    bar: &Bar,
-    case: &Parameters,
-    finished: &Finished,
-) -> SimulationRow {
+fn measured(study: &str, bar: &Bar, case: &Parameters, finished: &Finished) -> SimulationRow {
     let (exact, nominal) = (bar.exact(), bar.nominal());
     let (scene, history) = (&finished.scene, &finished.history);
     // A run that stopped early has no error of the whole curve: NaN, and no bound holds for it.
