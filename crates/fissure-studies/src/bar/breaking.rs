@@ -123,14 +123,14 @@ fn one_strain(
 }
 
 /// A bar between its grips, and how they move.
-pub(crate) struct Pull {
-    pub grid: Grid<2>,
-    pub scene: Scene<2>,
+struct Pull {
+    grid: Grid<2>,
+    scene: Scene<2>,
     loading: Loading,
 }
 
 impl Pull {
-    pub(crate) fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
+    fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
         let loading = Loading::new(bar, case, method)?;
         let grid = bar.grid()?;
         let scene = bar.scene(&grid, move |t| loading.at(t))?;
@@ -142,12 +142,12 @@ impl Pull {
     }
 
     /// When the run ends, s.
-    pub(crate) fn end(&self) -> f64 {
+    fn end(&self) -> f64 {
         self.loading.end
     }
 
     /// Pulls to the end, or to where the solver finds no equilibrium.
-    pub(crate) fn break_with(
+    fn break_with(
         self,
         solver: &mut dyn Solver<2>,
         case: &Parameters,
@@ -225,12 +225,7 @@ pub(crate) fn row(
 }
 
 /// The same without what only a law that cracks can tell.
-pub(crate) fn measured(
-    study: &str,
-    bar: &Bar,
-    case: &Parameters,
-    finished: &Finished,
-) -> SimulationRow {
+fn measured(study: &str, bar: &Bar, case: &Parameters, finished: &Finished) -> SimulationRow {
     let (exact, nominal) = (bar.exact(), bar.nominal());
     let (scene, history) = (&finished.scene, &finished.history);
     // A run that stopped early has no error of the whole curve: NaN, and no bound holds for it.

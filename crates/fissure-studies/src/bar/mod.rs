@@ -8,7 +8,7 @@ mod specimen;
 
 use fissure_study::{Parameter, Permitted};
 
-pub(crate) use breaking::{Finished, Pull, break_bar, load, measured, row, run_length};
+pub(crate) use breaking::{Finished, break_bar, load, row, run_length};
 pub(crate) use exact::Exact;
 pub(crate) use history::{History, Thinned};
 pub(crate) use specimen::{BODY, Bar, OFFSETS};

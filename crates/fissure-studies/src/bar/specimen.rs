@@ -150,8 +150,7 @@ impl Bar {
         Point::new(self.angle.cos(), self.angle.sin())
     }
 
-    /// Its middle, m.
-    pub(crate) fn centre(&self) -> Point {
+    fn centre(&self) -> Point {
         Point::new(0.5 * self.length, 0.5 * self.width)
     }
 
@@ -267,7 +266,6 @@ impl Bar {
             "damaged-shear" => {
                 scene.add_body(BODY, plane(Shear::Damaged(0.0), Planes::Fixed), seeds)?
             }
-            "elastic" => scene.add_body(BODY, self.elastic, seeds)?,
             "rotating" => scene.add_body(BODY, plane(Shear::Elastic, Planes::Rotating), seeds)?,
             _ => {
                 let normal = Normal::Prescribed(Vector3::new(axis.x, axis.y, 0.0));
