@@ -1,6 +1,6 @@
 //! Laws for tests.
 
-use fissure::materials::Hencky;
+use fissure::materials::{Hencky, SheetStep};
 use fissure::prelude::*;
 use fissure::tensor::Matrix3 as Tensor;
 
@@ -99,6 +99,15 @@ impl<M: Material> Material for Dense<M> {
 
     fn tangent(&self, increment: &Increment, old: &M::State) -> Result<Tangent, MaterialError> {
         self.0.tangent(increment, old)
+    }
+
+    fn plane_stress(
+        &self,
+        increment: &Increment,
+        old: &M::State,
+        with_tangent: bool,
+    ) -> Result<Option<SheetStep<M::State>>, MaterialError> {
+        self.0.plane_stress(increment, old, with_tangent)
     }
 
     fn values(&self, state: &M::State, out: &mut [f64]) {

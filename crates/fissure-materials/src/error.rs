@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::Response;
+
 /// Why a law refused its parameters, its band or a deformation.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MaterialError {
@@ -82,6 +84,19 @@ pub(crate) fn check_scaled_toughness(
 ) -> Result<(), MaterialError> {
     let name = "toughness times its scale";
     check_parameter(law, name, toughness, toughness > 0.0, "finite and > 0")
+}
+
+/// Refuses an answer that units near the largest and the smallest numbers have made infinite or NaN.
+pub(crate) fn check_finite<S>(
+    law: &'static str,
+    response: Response<S>,
+) -> Result<Response<S>, MaterialError> {
+    let energies = response.stored.is_finite() && response.dissipated.is_finite();
+    if energies && response.stress.is_finite() {
+        Ok(response)
+    } else {
+        Err(MaterialError::NotFinite { law })
+    }
 }
 
 /// Refuses a band that is zero or not below its limit.

@@ -24,6 +24,7 @@ use super::ellipse::Sheared;
 use super::mode::ModeAt;
 use super::{AnisotropicDamage, AnisotropicDamageState, MixedMode};
 use super::{circle, ellipse};
+use crate::error::check_finite;
 use crate::softening::Linear;
 use crate::{
     Biot, Increment, Material, MaterialError, Response, Scale, SheetStep, Softening,
@@ -250,12 +251,15 @@ impl<const ELLIPSE: bool, N: Softening, T: Softening> IncrementalDamage<ELLIPSE,
         // Without the crack's shear, and then what the secant shear holds.
         let rest = 0.5 * biot_stress.dot(&(to - Sym::dyad_of(&normal, &end.shear)));
         let stored = rest + stored_in_shear(&modes.shear, &state, &traction, ELLIPSE);
-        Ok(Response {
+        let spent = modes.spent(&state) - before + released;
+        let response = Response {
             stress: kinematics.turned(&biot_stress),
             state,
             stored,
-            dissipated: (modes.spent(&state) - before + released).max(0.0),
-        })
+            // `max` would hide a NaN.
+            dissipated: if spent < 0.0 { 0.0 } else { spent },
+        };
+        check_finite(NAME, response)
     }
 }
 

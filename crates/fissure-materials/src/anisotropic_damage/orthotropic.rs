@@ -31,7 +31,7 @@ use super::crack::{AnisotropicDamageState, CrackAt, Moved};
 use super::mixed_mode::MixedMode;
 use super::mode::Mode;
 use super::tangent::width_rate;
-use crate::error::{check_below, check_scaled_toughness};
+use crate::error::{check_below, check_finite, check_scaled_toughness};
 use crate::softening::Linear;
 use crate::{
     Biot, Increment, Initiation, Material, MaterialError, Response, Scale, SheetStep, Softening,
@@ -216,6 +216,17 @@ impl<const P: usize, N: Softening, T: Softening> OrthotropicDamage<P, N, T> {
         }
     }
 
+    /// The response, if units near the largest and the smallest numbers have left it finite.
+    fn checked(
+        response: Response<AnisotropicDamageState>,
+    ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
+        let state = &response.state;
+        if !(state.opened + state.sheared + state.opening + state.left_over).is_finite() {
+            return Err(MaterialError::NotFinite { law: NAME });
+        }
+        check_finite(NAME, response)
+    }
+
     fn response(
         kinematics: &Biot,
         step: &Step,
@@ -318,7 +329,7 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step(&kinematics, increment, old)?;
-        Ok(Self::response(&kinematics, &step, old))
+        Self::checked(Self::response(&kinematics, &step, old))
     }
 
     fn tangent(
@@ -338,7 +349,8 @@ impl<const P: usize, N: Softening, T: Softening> Material for OrthotropicDamage<
         let step = self.step(&kinematics, increment, old)?;
         let tangent =
             kinematics.turned_tangent(&step.biot_stress, self.rates(&kinematics, &step, increment));
-        Ok((Self::response(&kinematics, &step, old), tangent))
+        let response = Self::checked(Self::response(&kinematics, &step, old))?;
+        Ok((response, tangent))
     }
 
     fn plane_stress(

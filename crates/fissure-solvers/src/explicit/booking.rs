@@ -47,11 +47,11 @@ impl Booking {
         let force = |node| sums.internal_force(node);
         match update {
             StressUpdate::First => Self {
-                internal: 0.5 * (totals.work + work(force, &nodes.straining, dt)),
-                half_step: 0.5 * work(force, &nodes.end, dt),
+                internal: 0.5 * (totals.work + work(force, &nodes.straining, dt, &mut nodes.works)),
+                half_step: 0.5 * work(force, &nodes.end, dt, &mut nodes.works),
             },
             StressUpdate::Last => Self {
-                internal: 0.5 * work(force, &nodes.end, dt),
+                internal: 0.5 * work(force, &nodes.end, dt, &mut nodes.works),
                 half_step: 0.0,
             },
             // What strains is found with other sums.
@@ -69,13 +69,19 @@ impl Booking {
     pub(super) fn strained<const D: usize>(
         &mut self,
         update: StressUpdate,
-        nodes: &Nodes,
+        nodes: &mut Nodes,
         totals: &SweepTotals,
         dt: f64,
     ) {
         if update == StressUpdate::Musl {
-            let force = |node: usize| vector::<D>(&nodes.forces[node]);
-            self.internal = 0.5 * work(force, &nodes.straining, dt);
+            let Nodes {
+                forces,
+                works,
+                straining,
+                ..
+            } = nodes;
+            let force = |node: usize| vector::<D>(&forces[node]);
+            self.internal = 0.5 * work(force, straining, dt, works);
         }
         self.internal += 0.5 * totals.work;
         self.half_step = -0.5 * totals.work;
@@ -87,14 +93,17 @@ fn work<const D: usize>(
     force: impl Fn(usize) -> SVector<f64, D> + Sync,
     velocities: &Field,
     dt: f64,
+    parts: &mut Vec<f64>,
 ) -> f64 {
+    parts.resize(velocities.len().div_ceil(CHUNK), 0.0);
     let chunks = velocities.par_chunks(CHUNK).enumerate();
-    let parts: Vec<f64> = chunks
-        .map(|(chunk, velocities)| {
+    chunks
+        .zip(parts.par_iter_mut())
+        .for_each(|((chunk, velocities), part)| {
             let nodes = (chunk * CHUNK..).zip(velocities);
             let massive = nodes.filter(|(_, v)| v[MASSIVE] > 0.0);
-            massive.fold(0.0, |sum, (node, v)| sum - force(node).dot(&vector(v)) * dt)
-        })
-        .collect();
+            *part = massive.fold(0.0, |sum, (node, v)| sum - force(node).dot(&vector(v)) * dt);
+        });
+    // In order, whatever the threads did.
     parts.iter().sum()
 }

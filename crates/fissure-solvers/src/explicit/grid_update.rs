@@ -25,6 +25,8 @@ pub(crate) struct Nodes {
     pub forces: Field,
     /// Energies of some nodes each, kept for their allocation.
     energies: Vec<StepEnergy>,
+    /// Works of the internal forces of some nodes each, likewise.
+    pub works: Vec<f64>,
 }
 
 /// What the nodes are given to move by.
