@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use crate::GridError;
 use crate::axes::{Axes, Numbers};
+use crate::simd::EIGHT;
 
 /// Largest number of cells along an axis.
 const MOST_CELLS: i32 = 1 << 20;
@@ -103,6 +104,18 @@ impl<const D: usize> Grid<D> {
         let mut inside = true;
         for axis in 0..D {
             inside &= (x[axis] >= self.origin[axis]) & (x[axis] <= self.top[axis]);
+        }
+        inside
+    }
+
+    /// Whether eight points, axis by axis, are all in the box.
+    #[inline(always)]
+    pub fn contains_all(&self, x: &[[f64; EIGHT]; D]) -> bool {
+        let mut inside = true;
+        for axis in 0..D {
+            for x in &x[axis] {
+                inside &= (*x >= self.origin[axis]) & (*x <= self.top[axis]);
+            }
         }
         inside
     }

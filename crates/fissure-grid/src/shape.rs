@@ -61,13 +61,13 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil>;
 
-    /// Weights of eight particles of a tile, with the domain of each place; as [`stencil`](Self::stencil). A shape whose
+    /// Weights of eight particles of a tile at `x` (m, for each axis those of the eight), with the domain of each place; as [`stencil`](Self::stencil). A shape whose
     /// domain is always the initial one may ask for that of place 0 alone.
     fn stencils(
         &self,
         grid: &Grid<D>,
         tile: [i32; D],
-        x: &[SVector<f64, D>; EIGHT],
+        x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils;
 

@@ -2,6 +2,8 @@
 
 use nalgebra::SVector;
 
+use crate::simd::Lanes;
+
 /// Numbers per node of a field that particles gather: a vector of up to three components and one more.
 pub const FIELD: usize = 4;
 /// Numbers per node of the sums that particles scatter to.
@@ -26,31 +28,80 @@ pub trait Stencil<const D: usize>: Copy + Send + Sync {
     fn arm(&self, window: usize) -> SVector<f64, D>;
 }
 
-/// What a particle takes from a nodal field, four numbers each.
+/// What eight particles take from a nodal field, [`FIELD`] numbers each, the numbers of the particles side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gathered<Four, const D: usize> {
+pub struct Gathered<Eight, const D: usize> {
     /// `Σ N v`.
-    pub value: Four,
+    pub value: [Eight; FIELD],
     /// `Σ v ∂N/∂x_a` for each axis a, per m.
-    pub gradient: [Four; D],
+    pub gradient: [[Eight; FIELD]; D],
     /// `Σ N (x_i − x)_a v` for each axis a, m.
-    pub moment: [Four; D],
+    pub moment: [[Eight; FIELD]; D],
 }
 
-impl<Four: Copy, const D: usize> Gathered<Four, D> {
-    /// This value, and as gradients and moments as well.
+impl<Eight: Copy, const D: usize> Gathered<Eight, D> {
+    /// This in every place.
     #[inline(always)]
-    pub(crate) fn of(value: Four) -> Self {
+    pub(crate) fn of(number: Eight) -> Self {
         Self {
-            value,
-            gradient: [value; D],
-            moment: [value; D],
+            value: [number; FIELD],
+            gradient: [[number; FIELD]; D],
+            moment: [[number; FIELD]; D],
+        }
+    }
+}
+
+impl<Eight: Copy, const D: usize> Gathered<Eight, D> {
+    /// Adds what stands at a place along an axis, with its value, slope and value times arm.
+    #[inline(always)]
+    pub(crate) fn add<L: Lanes<Eight = Eight>, const G: bool, const M: bool>(
+        &mut self,
+        lanes: L,
+        v: &[Eight; FIELD],
+        [value, slope, arm]: [Eight; 3],
+        axis: usize,
+    ) {
+        for c in 0..FIELD {
+            self.value[c] = lanes.mul_add(v[c], value, self.value[c]);
+            if G {
+                let sum = &mut self.gradient[axis][c];
+                *sum = lanes.mul_add(v[c], slope, *sum);
+            }
+            if M {
+                let sum = &mut self.moment[axis][c];
+                *sum = lanes.mul_add(v[c], arm, *sum);
+            }
+        }
+    }
+
+    /// The same of sums along the axes before.
+    #[inline(always)]
+    pub(crate) fn add_partial<L: Lanes<Eight = Eight>, const G: bool, const M: bool>(
+        &mut self,
+        lanes: L,
+        part: &Self,
+        factors: [Eight; 3],
+        axis: usize,
+    ) {
+        self.add::<L, G, M>(lanes, &part.value, factors, axis);
+        for before in 0..axis {
+            for c in 0..FIELD {
+                if G {
+                    let sum = &mut self.gradient[before][c];
+                    *sum = lanes.mul_add(part.gradient[before][c], factors[0], *sum);
+                }
+                if M {
+                    let sum = &mut self.moment[before][c];
+                    *sum = lanes.mul_add(part.moment[before][c], factors[0], *sum);
+                }
+            }
         }
     }
 }
 
 /// What a particle gives to the nodal sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub struct Gift<const D: usize> {
     /// Multiplied by N.
     pub value: [f64; SUMS],

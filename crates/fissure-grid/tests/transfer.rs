@@ -16,24 +16,28 @@ struct Both<'a, S, const D: usize> {
     stencils: &'a S,
     place: usize,
     field: &'a [f64],
-    gift: &'a Gift<D>,
+    gifts: &'a [Gift<D>; EIGHT],
     sums: &'a mut [[f64; SUMS]],
 }
 
 impl<S: Stencils<D>, const D: usize> SimdTask for Both<'_, S, D> {
-    type Output = Gathered<[f64; FIELD], D>;
+    type Output = Gathered<f64, D>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Self::Output {
         self.stencils
-            .scatter::<L, true>(lanes, self.place, self.gift, self.sums);
-        let found = self
-            .stencils
-            .gather::<L, true, true>(lanes, self.place, self.field);
+            .scatter::<L, true>(lanes, self.gifts, EIGHT, self.sums);
+        let found = self.stencils.gather::<L, true, true>(lanes, self.field);
+        let place = self.place;
+        let of_place = |eight: L::Eight| {
+            let mut all = [0.0; EIGHT];
+            lanes.store(eight, &mut all);
+            all[place]
+        };
         Gathered {
-            value: lanes.store4(found.value),
-            gradient: found.gradient.map(|four| lanes.store4(four)),
-            moment: found.moment.map(|four| lanes.store4(four)),
+            value: found.value.map(of_place),
+            gradient: found.gradient.map(|of_axis| of_axis.map(of_place)),
+            moment: found.moment.map(|of_axis| of_axis.map(of_place)),
         }
     }
 }
@@ -44,7 +48,7 @@ fn plain<S: Stencil<D>, const D: usize>(
     field: &[f64],
     gift: &Gift<D>,
     sums: &mut [[f64; SUMS]],
-) -> Gathered<[f64; FIELD], D> {
+) -> Gathered<f64, D> {
     let mut found = Gathered {
         value: [0.0; FIELD],
         gradient: [[0.0; FIELD]; D],
@@ -101,7 +105,10 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
         // One that is off the grid and one in another tile do not disturb the others.
         all[(place + 1) % EIGHT] = SVector::repeat(-1.0);
         all[(place + 2) % EIGHT] = SVector::repeat(2.9);
-        let stencils = shape.stencils(&grid, [1; D], &all, |_| domain);
+        let columns = std::array::from_fn(|axis| all.map(|x| x[axis]));
+        let mut gifts = [Gift::default(); EIGHT];
+        gifts[place] = gift;
+        let stencils = shape.stencils(&grid, [1; D], &columns, |_| domain);
         for other in 0..EIGHT {
             let fits = other != (place + 1) % EIGHT && other != (place + 2) % EIGHT;
             assert_eq!(stencils.fits(other), fits, "{}: {other}", shape.name());
@@ -117,14 +124,16 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
                 stencils: &stencils,
                 place,
                 field: &field,
-                gift: &gift,
+                gifts: &gifts,
                 sums: &mut sums,
             });
             let pairs = [(found.value, exact.value, 1.0)].into_iter();
             let pairs = pairs.chain((0..D).map(|a| (found.gradient[a], exact.gradient[a], 8.0)));
             let pairs = pairs.chain((0..D).map(|a| (found.moment[a], exact.moment[a], 0.5)));
+            // The last number is summed where it is needed, and there to the gradient alone.
+            let known = |c: usize| c < D || (c == FIELD - 1 && !S::Stencils::SMOOTH);
             for (a, b, size) in pairs {
-                for c in 0..FIELD {
+                for c in (0..FIELD).filter(|&c| known(c)) {
                     if !((a[c] - b[c]).abs() <= 4e-15 * size) {
                         return Err(format!(
                             "{name} {} {D}D: {} is not {}",

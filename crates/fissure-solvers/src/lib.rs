@@ -11,6 +11,7 @@ mod bonds;
 mod checks;
 mod constraints;
 mod crack_motion;
+mod eight;
 #[cfg(feature = "implicit")]
 mod equilibrium;
 mod explicit;

@@ -4,13 +4,14 @@
 //! to the nodes. Batches of windows are worked on one by one: those of a batch have no node in common,
 //! so every sum has one order and the same bits on any number of threads.
 
-use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
+use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask, read_numbers};
 use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencils};
 use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
 use fissure_tensor::Sym;
 use nalgebra::{SMatrix, SVector};
 
-use crate::nodes::{Field, NodeSums, vector};
+use crate::eight::{GiftColumns, positions};
+use crate::nodes::{Field, NodeSums};
 use crate::placement::Placement;
 use crate::window::{CUBE, SQUARE, WindowSums};
 
@@ -96,30 +97,21 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         self.shape.stencil(self.grid, tile, x, &domain)
     }
 
-    /// Stencils of the first eight of these particles, or of all if they are fewer: their positions
-    /// and deformation gradients.
+    /// Stencils of eight particles at `x`, with the deformation gradients of the first eight of these rows; the last
+    /// one stands in for those that are not there.
     #[inline(always)]
     pub(crate) fn stencils_at(
         &self,
         half_edges: &SMatrix<f64, D, D>,
         tile: [i32; D],
-        x: &[SVector<f64, D>],
+        x: &[[f64; EIGHT]; D],
         f: &[nalgebra::Matrix3<f64>],
     ) -> S::Stencils {
-        let mut padded = [SVector::zeros(); EIGHT];
-        let eight = match x.first_chunk() {
-            Some(eight) => eight,
-            None => {
-                padded[..x.len()].copy_from_slice(x);
-                &padded
-            }
-        };
-        // Any particle stands in for those that are not there.
         let domain = |place: usize| {
             let f = &f[place.min(f.len() - 1)];
             self.shape.domain(half_edges, &Body::<D>::in_space(f))
         };
-        self.shape.stencils(self.grid, tile, eight, domain)
+        self.shape.stencils(self.grid, tile, x, domain)
     }
 
     /// Sums to the nodes what `give` says of every particle: by value, and with `SLOPED` by gradient
@@ -174,12 +166,12 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &mut NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.relay_window::<SQUARE, 65>(scene, body_index, runs, field, sums),
-            _ => self.relay_window::<CUBE, 513>(scene, body_index, runs, field, sums),
+            2 => self.relay_window::<SQUARE, 64>(scene, body_index, runs, field, sums),
+            _ => self.relay_window::<CUBE, 512>(scene, body_index, runs, field, sums),
         })
     }
 
-    fn relay_window<const N: usize, const PADDED: usize>(
+    fn relay_window<const N: usize, const ENTRIES: usize>(
         &self,
         scene: &Scene<D>,
         body_index: usize,
@@ -189,7 +181,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     ) -> Result<(), (usize, usize)> {
         let number = runs[0].window;
         let nodes = self.placement.nodes(number);
-        let mut values = [[0.0; FIELD]; PADDED];
+        let mut values = [[0.0; FIELD]; ENTRIES];
         nodes.load(field, &mut values);
         let mut window = WindowSums::<N>::zero();
         let task = RelayRuns {
@@ -243,17 +235,18 @@ impl<S: Shape<D>, G: Fn(&Body<D>, usize) -> Gift<D>, const D: usize, const SLOPE
                 let stencils = self.transfers.stencils_at(
                     self.body.half_edges(),
                     self.tile,
-                    &motion.position[first..end],
+                    &positions(lanes, &motion.position[first..end]),
                     &motion.deformation_gradient[first..end],
                 );
-                for index in first..(first + EIGHT).min(end) {
-                    let place = index - first;
+                let count = EIGHT.min(end - first);
+                let mut gifts = [Gift::default(); EIGHT];
+                for (place, gift) in gifts.iter_mut().enumerate().take(count) {
                     if !stencils.fits(place) {
-                        return Err(index);
+                        return Err(first + place);
                     }
-                    let gift = (self.give)(self.body, index);
-                    stencils.scatter::<L, SLOPED>(lanes, place, &gift, self.window);
+                    *gift = (self.give)(self.body, first + place);
                 }
+                stencils.scatter::<L, SLOPED>(lanes, &gifts, count, self.window);
             }
         }
         Ok(())
@@ -282,19 +275,19 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
                 let stencils = self.transfers.stencils_at(
                     self.body.half_edges(),
                     self.tile,
-                    &motion.position[first..end],
+                    &positions(lanes, &motion.position[first..end]),
                     &motion.deformation_gradient[first..end],
                 );
-                for index in first..(first + EIGHT).min(end) {
-                    let place = index - first;
-                    if !stencils.fits(place) {
-                        return Err(index);
-                    }
-                    let gathered = stencils.gather::<L, false, false>(lanes, place, self.values);
-                    let v = vector(&lanes.store4(gathered.value));
-                    let gift = momentum_gift(particles.mass[index], &v, None);
-                    stencils.scatter::<L, false>(lanes, place, &gift, self.window);
+                let count = EIGHT.min(end - first);
+                if let Some(place) = (0..count).find(|&place| !stencils.fits(place)) {
+                    return Err(first + place);
                 }
+                let gathered = stencils.gather::<L, false, false>(lanes, self.values);
+                let mut v = [lanes.splat(0.0); D];
+                v.copy_from_slice(&gathered.value[..D]);
+                let mass = read_numbers(lanes, &particles.mass[first..end]);
+                let gifts = GiftColumns::momentum(lanes, mass, &v).rows::<L, false>(lanes);
+                stencils.scatter::<L, false>(lanes, &gifts, count, self.window);
             }
         }
         Ok(())

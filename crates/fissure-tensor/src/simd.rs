@@ -4,44 +4,62 @@
 //! fused multiply-add, and plainly; [`Simd::run`] picks one. The two fused ones give the same bits. The plain one
 //! rounds products before it adds them, so its results differ in the last place.
 
-use pulp::Simd as _;
+mod columns;
+mod plain;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use columns::{Row, read_columns, read_numbers, write_columns};
+use plain::Plain;
 
 /// Numbers that go through a vector unit at once.
 pub const EIGHT: usize = 8;
 
-/// Operations on eight or four `f64` that happen to be done at once.
+/// Operations on eight `f64` that happen to be done at once.
 pub trait Lanes: Copy + Send + Sync {
     /// Eight numbers.
     type Eight: Copy;
-    /// Four numbers.
-    type Four: Copy;
     /// The same number eight times.
     fn splat(self, x: f64) -> Self::Eight;
     /// From memory.
     fn load(self, x: &[f64; 8]) -> Self::Eight;
     /// To memory.
     fn store(self, x: Self::Eight, to: &mut [f64; 8]);
+    /// `a + b`.
+    fn add(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// `a − b`.
+    fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// `a / b`.
+    fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     /// `a b`.
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     /// `a b + c`, rounded once where the machine can.
     fn mul_add(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
-    /// Lower four plus upper four.
-    fn fold(self, x: Self::Eight) -> Self::Four;
-    /// Four times `low`, four times `high`.
-    fn pair(self, low: f64, high: f64) -> Self::Eight;
-    /// Four from memory.
-    fn load4(self, x: [f64; 4]) -> Self::Four;
-    /// Four to memory.
-    fn store4(self, x: Self::Four) -> [f64; 4];
-    /// `a b`, of four.
-    fn mul4(self, a: Self::Four, b: Self::Four) -> Self::Four;
-    /// `a b + c`, rounded once where the machine can, of four.
-    fn mul_add4(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
-    /// The same number four times.
+    /// Four times the first, four times the second.
+    fn pair(self, numbers: &[f64; 2]) -> Self::Eight;
+    /// The larger of each two; the second where one is no number.
+    fn max(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// The first `count`, and zeros.
     #[inline(always)]
-    fn splat4(self, x: f64) -> Self::Four {
-        self.load4([x; 4])
+    fn first(self, x: Self::Eight, count: usize) -> Self::Eight {
+        if count >= EIGHT {
+            return x;
+        }
+        let mut numbers = [0.0; EIGHT];
+        self.store(x, &mut numbers);
+        numbers[count..].fill(0.0);
+        self.load(&numbers)
     }
+    /// Number j of row i becomes number i of row j.
+    fn transpose(self, rows: [Self::Eight; 8]) -> [Self::Eight; 8];
+    /// Eight rows of four numbers become four columns.
+    fn columns4(self, rows: [&[f64; 4]; 8]) -> [Self::Eight; 4];
+    /// Four columns become eight rows of four numbers.
+    fn rows4(self, columns: [Self::Eight; 4]) -> [[f64; 4]; 8];
+    /// Eight rows of two numbers become two columns.
+    fn columns2(self, rows: [&[f64; 2]; 8]) -> [Self::Eight; 2];
+    /// Two columns become eight rows of two numbers.
+    fn rows2(self, columns: [Self::Eight; 2]) -> [[f64; 2]; 8];
 }
 
 /// What is run on a vector unit. `run` must be `#[inline(always)]`, and so must what it calls, or it is compiled for
@@ -132,185 +150,6 @@ impl<L: Lanes, T: SimdTask> pulp::NullaryFnOnce for On<L, T> {
     }
 }
 
-/// What every machine has.
-#[derive(Clone, Copy, Debug)]
-pub struct Plain;
-
-impl Lanes for Plain {
-    type Eight = [f64; 8];
-    type Four = [f64; 4];
-
-    #[inline(always)]
-    fn splat(self, x: f64) -> [f64; 8] {
-        [x; 8]
-    }
-    #[inline(always)]
-    fn load(self, x: &[f64; 8]) -> [f64; 8] {
-        *x
-    }
-    #[inline(always)]
-    fn store(self, x: [f64; 8], to: &mut [f64; 8]) {
-        *to = x;
-    }
-    #[inline(always)]
-    fn mul(self, a: [f64; 8], b: [f64; 8]) -> [f64; 8] {
-        let mut out = a;
-        for i in 0..8 {
-            out[i] *= b[i];
-        }
-        out
-    }
-    #[inline(always)]
-    fn mul_add(self, a: [f64; 8], b: [f64; 8], c: [f64; 8]) -> [f64; 8] {
-        let mut out = c;
-        for i in 0..8 {
-            out[i] += a[i] * b[i];
-        }
-        out
-    }
-    #[inline(always)]
-    fn fold(self, x: [f64; 8]) -> [f64; 4] {
-        [x[0] + x[4], x[1] + x[5], x[2] + x[6], x[3] + x[7]]
-    }
-    #[inline(always)]
-    fn pair(self, low: f64, high: f64) -> [f64; 8] {
-        [low, low, low, low, high, high, high, high]
-    }
-    #[inline(always)]
-    fn load4(self, x: [f64; 4]) -> [f64; 4] {
-        x
-    }
-    #[inline(always)]
-    fn store4(self, x: [f64; 4]) -> [f64; 4] {
-        x
-    }
-    #[inline(always)]
-    fn mul4(self, mut a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-        for i in 0..4 {
-            a[i] *= b[i];
-        }
-        a
-    }
-    #[inline(always)]
-    fn mul_add4(self, a: [f64; 4], b: [f64; 4], mut c: [f64; 4]) -> [f64; 4] {
-        for i in 0..4 {
-            c[i] += a[i] * b[i];
-        }
-        c
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-impl Lanes for pulp::x86::V4 {
-    type Eight = pulp::f64x8;
-    type Four = pulp::f64x4;
-
-    #[inline(always)]
-    fn splat(self, x: f64) -> pulp::f64x8 {
-        self.splat_f64x8(x)
-    }
-    #[inline(always)]
-    fn load(self, x: &[f64; 8]) -> pulp::f64x8 {
-        pulp::cast(*x)
-    }
-    #[inline(always)]
-    fn store(self, x: pulp::f64x8, to: &mut [f64; 8]) {
-        *to = pulp::cast(x);
-    }
-    #[inline(always)]
-    fn mul(self, a: pulp::f64x8, b: pulp::f64x8) -> pulp::f64x8 {
-        self.mul_f64s(a, b)
-    }
-    #[inline(always)]
-    fn mul_add(self, a: pulp::f64x8, b: pulp::f64x8, c: pulp::f64x8) -> pulp::f64x8 {
-        self.mul_add_f64x8(a, b, c)
-    }
-    #[inline(always)]
-    fn fold(self, x: pulp::f64x8) -> pulp::f64x4 {
-        let [low, high]: [pulp::f64x4; 2] = pulp::cast(x);
-        (*self).add_f64x4(low, high)
-    }
-    #[inline(always)]
-    fn load4(self, x: [f64; 4]) -> pulp::f64x4 {
-        pulp::cast(x)
-    }
-    #[inline(always)]
-    fn store4(self, x: pulp::f64x4) -> [f64; 4] {
-        pulp::cast(x)
-    }
-    #[inline(always)]
-    fn mul4(self, a: pulp::f64x4, b: pulp::f64x4) -> pulp::f64x4 {
-        (*self).mul_f64x4(a, b)
-    }
-    #[inline(always)]
-    fn mul_add4(self, a: pulp::f64x4, b: pulp::f64x4, c: pulp::f64x4) -> pulp::f64x4 {
-        (*self).mul_add_f64x4(a, b, c)
-    }
-    #[inline(always)]
-    fn pair(self, low: f64, high: f64) -> pulp::f64x8 {
-        pulp::cast([self.splat_f64x4(low), self.splat_f64x4(high)])
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-impl Lanes for pulp::x86::V3 {
-    type Eight = [pulp::f64x4; 2];
-    type Four = pulp::f64x4;
-
-    #[inline(always)]
-    fn splat(self, x: f64) -> [pulp::f64x4; 2] {
-        [self.splat_f64x4(x); 2]
-    }
-    #[inline(always)]
-    fn load(self, x: &[f64; 8]) -> [pulp::f64x4; 2] {
-        pulp::cast(*x)
-    }
-    #[inline(always)]
-    fn store(self, x: [pulp::f64x4; 2], to: &mut [f64; 8]) {
-        *to = pulp::cast(x);
-    }
-    #[inline(always)]
-    fn mul(self, a: [pulp::f64x4; 2], b: [pulp::f64x4; 2]) -> [pulp::f64x4; 2] {
-        [self.mul_f64s(a[0], b[0]), self.mul_f64s(a[1], b[1])]
-    }
-    #[inline(always)]
-    fn mul_add(
-        self,
-        a: [pulp::f64x4; 2],
-        b: [pulp::f64x4; 2],
-        c: [pulp::f64x4; 2],
-    ) -> [pulp::f64x4; 2] {
-        [
-            self.mul_add_f64x4(a[0], b[0], c[0]),
-            self.mul_add_f64x4(a[1], b[1], c[1]),
-        ]
-    }
-    #[inline(always)]
-    fn fold(self, x: [pulp::f64x4; 2]) -> pulp::f64x4 {
-        self.add_f64s(x[0], x[1])
-    }
-    #[inline(always)]
-    fn load4(self, x: [f64; 4]) -> pulp::f64x4 {
-        pulp::cast(x)
-    }
-    #[inline(always)]
-    fn store4(self, x: pulp::f64x4) -> [f64; 4] {
-        pulp::cast(x)
-    }
-    #[inline(always)]
-    fn mul4(self, a: pulp::f64x4, b: pulp::f64x4) -> pulp::f64x4 {
-        self.mul_f64x4(a, b)
-    }
-    #[inline(always)]
-    fn mul_add4(self, a: pulp::f64x4, b: pulp::f64x4, c: pulp::f64x4) -> pulp::f64x4 {
-        self.mul_add_f64x4(a, b, c)
-    }
-    #[inline(always)]
-    fn pair(self, low: f64, high: f64) -> [pulp::f64x4; 2] {
-        [self.splat_f64x4(low), self.splat_f64x4(high)]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -325,13 +164,69 @@ mod tests {
         fn run<L: Lanes>(self, lanes: L) -> Vec<f64> {
             let x = lanes.load(&self.0);
             let product = lanes.mul(x, lanes.splat(0.1));
-            let sum = lanes.mul_add(x, lanes.pair(0.7, -0.3), product);
+            let sum = lanes.mul_add(x, lanes.pair(&[0.7, -0.3]), product);
             let mut out = [0.0; 8];
             lanes.store(sum, &mut out);
-            let folded = lanes.fold(product);
-            let four = lanes.mul_add4(folded, lanes.splat4(0.3), lanes.mul4(folded, folded));
-            let four = [folded, four].map(|four| lanes.store4(four));
-            out.into_iter().chain(four.into_iter().flatten()).collect()
+            let mut sums = [0.0; 8];
+            let quotient = lanes.div(lanes.sub(sum, product), lanes.splat(0.5));
+            let quotient = lanes.max(quotient, lanes.splat(-1e9));
+            lanes.store(lanes.add(quotient, product), &mut sums);
+            out.into_iter().chain(sums).collect()
+        }
+    }
+
+    /// Rows as columns, and back.
+    struct Turns([[f64; 8]; 8]);
+
+    impl SimdTask for Turns {
+        type Output = [[[f64; 8]; 8]; 5];
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+            let rows = self.0;
+            let mut found = [[[0.0; 8]; 8]; 5];
+            let turned = lanes.transpose(rows.map(|row| lanes.load(&row)));
+            let four = rows.map(|r| [r[0], r[1], r[2], r[3]]);
+            let four = lanes.columns4(four.each_ref());
+            let two = rows.map(|r| [r[0], r[1]]);
+            let two = lanes.columns2(two.each_ref());
+            for (to, column) in found[0].iter_mut().zip(turned) {
+                lanes.store(column, to);
+            }
+            for (to, column) in found[1].iter_mut().zip(four) {
+                lanes.store(column, to);
+            }
+            for (to, column) in found[2].iter_mut().zip(two) {
+                lanes.store(column, to);
+            }
+            for (to, row) in found[3].iter_mut().zip(lanes.rows4(four)) {
+                to[..4].copy_from_slice(&row);
+            }
+            for (to, row) in found[4].iter_mut().zip(lanes.rows2(two)) {
+                to[..2].copy_from_slice(&row);
+            }
+            found
+        }
+    }
+
+    #[test]
+    fn every_unit_turns_rows_into_columns_and_back() {
+        let rows: [[f64; 8]; 8] =
+            std::array::from_fn(|i| std::array::from_fn(|j| (10 * i + j) as f64));
+        for name in ["plain", "avx2", "avx512"] {
+            let Some(unit) = Simd::named(name) else {
+                continue;
+            };
+            let [all, four, two, rows_of_four, rows_of_two] = unit.run(Turns(rows));
+            for i in 0..8 {
+                for j in 0..8 {
+                    assert_eq!(all[j][i], rows[i][j], "{name}");
+                    let within = |count| if j < count { rows[i][j] } else { 0.0 };
+                    assert_eq!([four[j][i], two[j][i]], [within(4), within(2)], "{name}");
+                    let found = [rows_of_four[i][j], rows_of_two[i][j]];
+                    assert_eq!(found, [within(4), within(2)], "{name}");
+                }
+            }
         }
     }
 
@@ -343,6 +238,7 @@ mod tests {
         for (i, exact) in x.iter().enumerate() {
             let factor = if i < 4 { 0.8 } else { -0.2 };
             assert!((plain[i] - exact * factor).abs() <= 1e-15 * exact.abs());
+            assert!((plain[8 + i] - exact * (2.0 * factor - 0.1)).abs() <= 1e-15 * exact.abs());
         }
         let mut fused: Option<Vec<f64>> = None;
         for (name, unit) in units {

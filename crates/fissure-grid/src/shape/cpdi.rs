@@ -96,12 +96,13 @@ impl<const D: usize> Shape<D> for Cpdi {
         &self,
         grid: &Grid<D>,
         tile: [i32; D],
-        x: &[SVector<f64, D>; EIGHT],
+        x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         let mut stencils = [None; EIGHT];
         for (place, stencil) in stencils.iter_mut().enumerate() {
-            *stencil = self.stencil(grid, tile, &x[place], &domain(place));
+            let x = SVector::from_fn(|axis, _| x[axis][place]);
+            *stencil = self.stencil(grid, tile, &x, &domain(place));
         }
         OneByOne(stencils)
     }

@@ -42,7 +42,7 @@ impl<const D: usize> Shape<D> for Gimp {
         &self,
         grid: &Grid<D>,
         tile: [i32; D],
-        x: &[SVector<f64, D>; EIGHT],
+        x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         match Averaged::of(grid, &domain(0)) {

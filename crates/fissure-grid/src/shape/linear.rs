@@ -36,7 +36,7 @@ impl<const D: usize> Shape<D> for Linear {
         &self,
         grid: &Grid<D>,
         tile: [i32; D],
-        x: &[SVector<f64, D>; EIGHT],
+        x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         SeparableStencils::new(grid, tile, x, self)

@@ -1,28 +1,22 @@
 //! The law asked for eight particles at once.
 
 use fissure_materials::{EIGHT, EightPoints, Material, Matrix3};
-use fissure_tensor::simd::{Lanes, SimdTask};
+use fissure_tensor::simd::{Lanes, SimdTask, read_columns, read_numbers, write_columns};
+use nalgebra::SVector;
 
 use super::windows::Part;
 use crate::body::ParticleScale;
-use crate::sweep::Run;
+use crate::sweep::{Run, SweepTotals};
 
 /// What a law answered for the particles of a run by eights; their stresses are in the trial.
+#[derive(Default)]
 pub(super) struct ByEights {
     /// A bit for each eight.
     answered: u8,
-    pub stored: [f64; Run::MAX],
-    pub wave_speed: [f64; Run::MAX],
-}
-
-impl Default for ByEights {
-    fn default() -> Self {
-        Self {
-            answered: 0,
-            stored: [0.0; Run::MAX],
-            wave_speed: [0.0; Run::MAX],
-        }
-    }
+    /// Eight sums of stored energies, J.
+    stored: [f64; EIGHT],
+    /// The largest wave speeds of eight sets, m/s.
+    wave_speed: [f64; EIGHT],
 }
 
 impl ByEights {
@@ -31,12 +25,28 @@ impl ByEights {
         // A run of another solver may be longer.
         row < Run::MAX && self.answered >> (row / EIGHT) & 1 == 1
     }
+
+    /// Whether the first of so many rows are.
+    pub(super) fn all_answered(&self, rows: usize) -> bool {
+        (0..rows).step_by(EIGHT).all(|row| self.answered(row))
+    }
+
+    /// Sums over those that are answered.
+    pub(super) fn totals(&self) -> SweepTotals {
+        SweepTotals {
+            stored: self.stored.iter().sum(),
+            wave_speed: self.wave_speed.iter().copied().fold(0.0, f64::max),
+            ..SweepTotals::default()
+        }
+    }
 }
 
 /// Asks a law for the eights of a run that have no history.
 pub(super) struct AskByEights<'a, 'p, M: Material, const D: usize> {
     pub law: &'a M,
-    /// Of the run's particles on.
+    /// Volumes at rest, m³, from the run's first particle on.
+    pub volume: &'a [f64],
+    /// From the run's first particle on.
     pub scale: Option<&'a [ParticleScale]>,
     pub part: &'a mut Part<'p, M, D>,
     pub answers: &'a mut ByEights,
@@ -46,38 +56,123 @@ impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self, _lanes: L) {
+    fn run<L: Lanes>(self, lanes: L) {
         let answers = self.answers;
         let Part { new, states, .. } = self.part;
         let count = new.len().min(Run::MAX);
-        // All are brought into columns first: what has just been written number by number cannot be read by eights.
-        let mut points = [EightPoints::of(&Matrix3::identity()); Run::MAX / EIGHT];
-        for (row, f) in new.deformation_gradient.iter().enumerate().take(count) {
-            let points = &mut points[row / EIGHT];
-            points.set(row % EIGHT, f);
-            if let Some(scale) = self.scale {
-                points.stiffness[row % EIGHT] = scale[row].0.stiffness;
-                points.strength[row % EIGHT] = scale[row].0.strength;
-            }
-        }
-        for (first, points) in (0..count).step_by(EIGHT).zip(&points) {
+        let (mut stored, mut wave_speed) = (lanes.splat(0.0), lanes.splat(0.0));
+        for first in (0..count).step_by(EIGHT) {
             let rows = first..(first + EIGHT).min(count);
             let no_state = size_of::<M::State>() == 0;
             if !no_state && rows.clone().any(|row| states.slot(row).is_some()) {
                 continue;
             }
-            let Some(responses) = self.law.update_eight(points) else {
+            let points = points(lanes, &new.deformation_gradient[first..], self.scale, first);
+            let Some(responses) = self.law.update_eight(&points) else {
                 continue;
             };
-            if !responses.is_finite() {
+            // A number times zero is zero, and what is none stays so.
+            let zero = lanes.splat(0.0);
+            let energy = lanes.mul(lanes.load(&responses.stored), zero);
+            let mut nothing = lanes.mul_add(lanes.load(&responses.wave_speed), zero, energy);
+            let mut stress = [zero; 6];
+            for (column, numbers) in stress.iter_mut().zip(&responses.stress) {
+                *column = lanes.load(numbers);
+                nothing = lanes.mul_add(*column, zero, nothing);
+            }
+            if !all_zero(lanes, nothing) {
                 continue;
             }
             answers.answered |= 1 << (first / EIGHT);
-            for row in rows {
-                new.stress[row] = responses.stress(row - first);
+            write_columns(lanes, &stress, &mut new.stress[rows.clone()]);
+            let volume = lanes.first(read_numbers(lanes, &self.volume[rows.clone()]), rows.len());
+            stored = lanes.mul_add(lanes.load(&responses.stored), volume, stored);
+            wave_speed = lanes.max(lanes.load(&responses.wave_speed), wave_speed);
+        }
+        lanes.store(stored, &mut answers.stored);
+        lanes.store(wave_speed, &mut answers.wave_speed);
+    }
+}
+
+#[inline(always)]
+fn all_zero<L: Lanes>(lanes: L, numbers: L::Eight) -> bool {
+    let mut all = [1.0; EIGHT];
+    lanes.store(numbers, &mut all);
+    let mut zero = true;
+    for number in all {
+        zero &= number == 0.0;
+    }
+    zero
+}
+
+/// Kinetic energies of some particles.
+pub(super) struct Kinetic<'a, const D: usize> {
+    /// kg.
+    pub mass: &'a [f64],
+    /// m/s.
+    pub velocity: &'a [SVector<f64, D>],
+}
+
+impl<const D: usize> SimdTask for Kinetic<'_, D> {
+    /// With the squares of the largest speeds.
+    type Output = SweepTotals;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> SweepTotals {
+        let zero = lanes.splat(0.0);
+        let (mut twice, mut largest) = (zero, zero);
+        for first in (0..self.mass.len()).step_by(EIGHT) {
+            let end = (first + EIGHT).min(self.mass.len());
+            let mut velocity = [zero; D];
+            read_columns(lanes, &self.velocity[first..end], &mut velocity);
+            let mut square = zero;
+            for component in velocity {
+                square = lanes.mul_add(component, component, square);
             }
-            answers.stored[first..first + EIGHT].copy_from_slice(&responses.stored);
-            answers.wave_speed[first..first + EIGHT].copy_from_slice(&responses.wave_speed);
+            let mass = lanes.first(read_numbers(lanes, &self.mass[first..end]), end - first);
+            twice = lanes.mul_add(mass, square, twice);
+            largest = lanes.max(square, largest);
+        }
+        let (mut sums, mut squares) = ([0.0; EIGHT], [0.0; EIGHT]);
+        lanes.store(twice, &mut sums);
+        lanes.store(largest, &mut squares);
+        SweepTotals {
+            kinetic: 0.5 * sums.iter().sum::<f64>(),
+            speed_squared: squares.iter().copied().fold(0.0, f64::max),
+            ..SweepTotals::default()
         }
     }
+}
+
+/// The points from row `first` on; where there are fewer than eight the last one stands in for the others.
+#[inline(always)]
+fn points<L: Lanes>(
+    lanes: L,
+    deformation_gradient: &[Matrix3<f64>],
+    scale: Option<&[ParticleScale]>,
+    first: usize,
+) -> EightPoints {
+    let mut columns = [lanes.splat(0.0); 9];
+    read_columns(lanes, deformation_gradient, &mut columns);
+    let mut points = EightPoints {
+        deformation_gradient: [[0.0; EIGHT]; 9],
+        stiffness: [1.0; EIGHT],
+        strength: [1.0; EIGHT],
+    };
+    for j in 0..3 {
+        for i in 0..3 {
+            lanes.store(
+                columns[3 * j + i],
+                &mut points.deformation_gradient[3 * i + j],
+            );
+        }
+    }
+    if let Some(scale) = scale {
+        for place in 0..EIGHT {
+            let row = first + place.min(deformation_gradient.len() - 1);
+            points.stiffness[place] = scale[row].0.stiffness;
+            points.strength[place] = scale[row].0.strength;
+        }
+    }
+    points
 }

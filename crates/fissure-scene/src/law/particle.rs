@@ -86,7 +86,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
     /// Takes artificial pressure off the stress of a row; its work per reference volume, J/m³. In a
     /// `sheet` none acts across.
     #[inline(always)]
-    pub(super) fn add_viscosity(
+    fn add_viscosity(
         &self,
         part: &mut Part<'_, M, D>,
         row: usize,

@@ -4,7 +4,7 @@ use fissure_materials::{External, Material};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use nalgebra::SVector;
 
-use super::eights::{AskByEights, ByEights};
+use super::eights::{AskByEights, ByEights, Kinetic};
 use super::{Constants, scale_of};
 use crate::over_windows::Cut;
 use crate::states::{Fresh, StateColumns};
@@ -121,31 +121,34 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         fresh: &mut Fresh<M::State>,
     ) -> Result<SweepTotals, SweepFailure> {
         let first = run.start as usize;
-        let mut totals = SweepTotals::default();
         let mut failure: Option<SweepFailure> = None;
         let asked = kernel.sets_external();
         let mut eights = ByEights::default();
-        if !asked && matches!(part.tangents, Tangents::None) {
+        // Artificial viscosity adds to the stress of each by itself.
+        let alone = asked || self.settings.viscosity.is_some();
+        if !alone && matches!(part.tangents, Tangents::None) {
             self.settings.simd.run(AskByEights {
                 law: self.law,
+                volume: &self.constants.volume[first..],
                 scale: self.constants.scale.map(|scale| &scale[first..]),
                 part,
                 answers: &mut eights,
             });
         }
+        let moving = self.settings.simd.run(Kinetic {
+            mass: &self.constants.mass[first..first + part.old.len()],
+            velocity: part.new.velocity,
+        });
+        let mut totals = moving.merge(eights.totals());
+        if eights.all_answered(part.old.len()) {
+            return Ok(totals);
+        }
         for row in 0..part.old.len() {
-            let index = first + row;
-            let volume = self.constants.volume[index];
-            let square = part.new.velocity[row].norm_squared();
-            totals.kinetic += 0.5 * self.constants.mass[index] * square;
-            totals.speed_squared = larger(totals.speed_squared, square);
             if eights.answered(row) {
-                let (stored, speed) = (eights.stored[row], eights.wave_speed[row]);
-                totals.stored += stored * volume;
-                totals.wave_speed = larger(totals.wave_speed, speed);
-                totals.viscous += self.add_viscosity(part, row, speed, false) * volume;
                 continue;
             }
+            let index = first + row;
+            let volume = self.constants.volume[index];
             let set = if asked {
                 kernel.external(run, row)
             } else {
@@ -168,10 +171,4 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         }
         failure.map_or(Ok(totals), Err)
     }
-}
-
-/// Of two numbers.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

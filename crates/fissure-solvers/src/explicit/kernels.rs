@@ -2,16 +2,17 @@
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use fissure_grid::simd::{EIGHT, Lanes, SimdTask};
+use fissure_grid::simd::{EIGHT, Lanes, SimdTask, write_columns};
 use fissure_grid::{FIELD, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Run, RunConstants, RunKernel, WindowKernel};
 use nalgebra::SMatrix;
 
-use super::particle::{Strain, gradient, scaled};
+use super::particle::{StoredStrain, volumes};
 use super::settings::Transfer;
+use crate::eight::{momentum_of, positions, read_matrices, read_symmetric};
 use crate::nodes::{Field, NodeSums};
-use crate::transfers::{Transfers, add_stress, momentum_gift};
+use crate::transfers::Transfers;
 use crate::window::{CUBE, SQUARE, WindowSums};
 
 /// What particles give to the nodes at the end of a pass over them.
@@ -62,24 +63,24 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
         work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         match D {
-            2 => self.on_window_of::<SQUARE, 65>(window, work),
-            _ => self.on_window_of::<CUBE, 513>(window, work),
+            2 => self.on_window_of::<SQUARE, 64>(window, work),
+            _ => self.on_window_of::<CUBE, 512>(window, work),
         }
     }
 }
 
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
-    fn on_window_of<const N: usize, const PADDED: usize>(
+    fn on_window_of<const N: usize, const ENTRIES: usize>(
         &self,
         window: u32,
         work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         let placement = self.transfers.placement;
         let nodes = placement.nodes(window);
-        let mut field = [[0.0; FIELD]; PADDED];
+        let mut field = [[0.0; FIELD]; ENTRIES];
         nodes.load(self.field, &mut field);
         let carried = self.carried.map(|carried| {
-            let mut values = [[0.0; FIELD]; PADDED];
+            let mut values = [[0.0; FIELD]; ENTRIES];
             nodes.load(carried, &mut values);
             values
         });
@@ -90,8 +91,8 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
             field: field.as_flattened(),
             carried: carried.as_ref().map(|values| values.as_flattened()),
             sums: &mut sums.0,
-            strains: [Strain::default(); Run::MAX],
-            work: 0.0,
+            strains: [StoredStrain::NONE; Run::MAX / EIGHT],
+            work: [0.0; EIGHT],
         });
         nodes.add(&sums.0, self.sums);
         done
@@ -109,10 +110,20 @@ struct Tile<'a, S, const D: usize> {
     field: &'a [f64],
     carried: Option<&'a [f64]>,
     sums: &'a mut [[f64; SUMS]],
-    /// Of the rows of the run at work, where their new stresses are to do work on them.
-    strains: [Strain<D>; Run::MAX],
+    /// Of the run at work, eight by eight, where their new stresses are to do work on them.
+    strains: [StoredStrain; Run::MAX / EIGHT],
     /// Work on these strains, J: with the stress first that of the old stresses, else that of the new ones.
-    work: f64,
+    work: [f64; EIGHT],
+}
+
+impl<S, const D: usize> Tile<'_, S, D> {
+    /// Adds what the first particles of eight tell, J.
+    #[inline(always)]
+    fn add_work<L: Lanes>(&mut self, lanes: L, work: L::Eight, count: usize) {
+        let counted = lanes.first(work, count);
+        let sum = lanes.add(lanes.load(&self.work), counted);
+        lanes.store(sum, &mut self.work);
+    }
 }
 
 impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
@@ -187,7 +198,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
                 new,
             });
         }
-        std::mem::take(&mut self.work)
+        std::mem::take(&mut self.work).iter().sum()
     }
 }
 
@@ -233,63 +244,61 @@ impl<
         } = self;
         let pass = tile.pass;
         for first in (0..old.len()).step_by(EIGHT) {
-            let (x, f) = (&old.position[first..], &old.deformation_gradient[first..]);
+            let rows = first..(first + EIGHT).min(old.len());
+            let x = positions(lanes, &old.position[first..]);
+            let f = &old.deformation_gradient[first..];
             let stencils = pass
                 .transfers
-                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
-            let rows = first..(first + EIGHT).min(old.len());
-            for row in rows.clone() {
-                let place = row - first;
-                if !stencils.fits(place) {
-                    return Err(pass.first_outside(first..row, new).unwrap_or(row));
-                }
-                let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, place, tile.field);
-                if MOVES {
-                    let carried = tile.carried.map(|carried| {
-                        stencils
-                            .gather::<L, false, false>(lanes, place, carried)
-                            .value
-                    });
-                    pass.move_particle(lanes, row, &gathered, carried, old, new);
-                    if MOMENT || (GRADIENT && pass.is_affine()) {
-                        new.affine[row] = pass.affine_part::<L, MOMENT>(lanes, &gathered);
-                    }
-                }
-                if STRAINS {
-                    let f = &old.deformation_gradient[row];
-                    let change = scaled(lanes, &gradient(lanes, &gathered), pass.dt);
-                    let hoop = pass.hoop(lanes, &gathered, &old.position[row]);
-                    let mut strain = Strain {
-                        columns: [[0.0; FIELD]; D],
-                        hoop,
-                    };
-                    for (column, change) in strain.columns.iter_mut().zip(change) {
-                        *column = lanes.store4(change);
-                    }
-                    if pass.backward {
-                        let volume = constants.volume[row] * f.determinant();
-                        tile.work += volume * strain.work(&old.stress[row]);
-                    } else {
-                        tile.strains[row] = strain;
-                    }
-                    new.deformation_gradient[row] = pass.strained(lanes, change, hoop, f);
-                }
-                if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
-                    let affine = if MOMENT || GRADIENT {
-                        new.affine.get(row)
-                    } else {
-                        None
-                    };
-                    let gift = momentum_gift(constants.mass[row], &new.velocity[row], affine);
-                    if affine.is_some() {
-                        stencils.scatter::<L, true>(lanes, place, &gift, tile.sums);
-                    } else {
-                        stencils.scatter::<L, false>(lanes, place, &gift, tile.sums);
-                    }
+                .stencils_at(&pass.half_edges, tile.coordinates, &x, f);
+            if stencils.fitting() != u8::MAX {
+                let outside = rows.clone().find(|row| !stencils.fits(row - first));
+                return Err(outside.unwrap_or(first));
+            }
+            let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, tile.field);
+            let affine = MOMENT || (GRADIENT && pass.is_affine());
+            let mut inside = true;
+            if MOVES {
+                let carried = tile
+                    .carried
+                    .map(|carried| stencils.gather::<L, false, false>(lanes, carried));
+                inside = pass.move_eight(lanes, first, &x, &gathered, carried.as_ref(), old, new);
+                if affine {
+                    pass.write_affine::<L, MOMENT>(lanes, first, &gathered, new);
                 }
             }
-            if MOVES && let Some(row) = pass.first_outside(rows, new) {
-                return Err(row);
+            if STRAINS {
+                let f_old = read_matrices(lanes, f);
+                let strain = pass.strain(lanes, &x, &gathered);
+                if pass.backward {
+                    let stress = read_symmetric(lanes, &old.stress[first..]);
+                    let volume = volumes(lanes, first, constants.volume, &f_old);
+                    let work = strain.work::<L, D>(lanes, &stress);
+                    tile.add_work(lanes, lanes.mul(volume, work), rows.len());
+                } else {
+                    strain.store::<L, D>(lanes, &mut tile.strains[first / EIGHT]);
+                }
+                let f = pass.strained(lanes, &strain, &f_old);
+                write_columns(
+                    lanes,
+                    f.as_flattened(),
+                    &mut new.deformation_gradient[first..],
+                );
+            }
+            if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
+                let affine = affine.then(|| &new.affine[first..]);
+                let mass = &constants.mass[first..];
+                let gift = momentum_of(lanes, mass, &new.velocity[first..], affine);
+                // Whether there is an affine part is known when this is compiled.
+                if MOMENT || GRADIENT {
+                    let gifts = gift.rows::<L, true>(lanes);
+                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), tile.sums);
+                } else {
+                    let gifts = gift.rows::<L, false>(lanes);
+                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), tile.sums);
+                }
+            }
+            if !inside {
+                return Err(pass.first_outside(rows, new));
             }
         }
         Ok(())
@@ -325,38 +334,35 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
         let works = pass.giving == Giving::AllOn;
         for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
-            let (x, f) = (
-                &place.position[first..],
-                &place.deformation_gradient[first..],
-            );
+            let x = positions(lanes, &place.position[first..]);
+            let f = &place.deformation_gradient[first..];
             let stencils = pass
                 .transfers
-                .stencils_at(&pass.half_edges, tile.coordinates, x, f);
-            for row in first..(first + EIGHT).min(new.len()) {
-                if !stencils.fits(row - first) {
-                    pass.strayed.store(true, Relaxed);
-                    continue;
+                .stencils_at(&pass.half_edges, tile.coordinates, &x, f);
+            let rows = first..(first + EIGHT).min(new.len());
+            let affine = (AFFINE && !velocity.affine.is_empty()).then(|| &velocity.affine[first..]);
+            let mass = &constants.mass[first..];
+            let mut gift = momentum_of(lanes, mass, &velocity.velocity[first..], affine);
+            if forces {
+                let f = read_matrices(lanes, &new.deformation_gradient[first..]);
+                let volume = volumes(lanes, first, constants.volume, &f);
+                let stress = read_symmetric(lanes, &new.stress[first..]);
+                gift.add_stress(lanes, pass.transfers.kinematics, &stress, volume, &x);
+                if works {
+                    let strain = tile.strains[first / EIGHT].load::<L, D>(lanes);
+                    let work = strain.work::<L, D>(lanes, &stress);
+                    tile.add_work(lanes, lanes.mul(volume, work), rows.len());
                 }
-                let affine = if AFFINE {
-                    velocity.affine.get(row)
-                } else {
-                    None
-                };
-                let mut gift = momentum_gift(constants.mass[row], &velocity.velocity[row], affine);
-                if forces {
-                    let volume =
-                        constants.volume[row] * new.deformation_gradient[row].determinant();
-                    let (stress, x) = (&new.stress[row], &place.position[row]);
-                    add_stress(&mut gift, pass.transfers.kinematics, stress, volume, x);
-                    if works {
-                        tile.work += volume * tile.strains[row].work(stress);
-                    }
-                }
-                if forces || AFFINE {
-                    stencils.scatter::<L, true>(lanes, row - first, &gift, tile.sums);
-                } else {
-                    stencils.scatter::<L, false>(lanes, row - first, &gift, tile.sums);
-                }
+            }
+            let gifts = gift.rows::<L, true>(lanes);
+            // Where there are fewer than eight the last one stands in for the others.
+            if stencils.fitting() != u8::MAX {
+                pass.strayed.store(true, Relaxed);
+            }
+            if forces || AFFINE {
+                stencils.scatter::<L, true>(lanes, &gifts, rows.len(), tile.sums);
+            } else {
+                stencils.scatter::<L, false>(lanes, &gifts, rows.len(), tile.sums);
             }
         }
     }

@@ -1,209 +1,264 @@
-//! What a pass does to one particle with what it gathered.
+//! What a pass does to eight particles with what they gathered, component by component.
 
-use fissure_grid::simd::Lanes;
-use fissure_grid::{FIELD, Gathered, Shape};
+use fissure_grid::simd::{EIGHT, Lanes, read_columns, read_numbers, write_columns};
+use fissure_grid::{FIELD, Gathered, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::Kinematics;
-use fissure_tensor::Sym;
-use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::kernels::StepKernel;
 use super::settings::Transfer;
-use crate::nodes::{MASSIVE, vector};
+use crate::eight::{Matrix, identity, inverse};
+use crate::nodes::MASSIVE;
 
-/// Velocity gradient times the length of the step.
+/// Velocity gradient times the length of the step, of eight particles.
 #[derive(Clone, Copy)]
-pub(super) struct Strain<const D: usize> {
-    /// Columns, with a fourth number that is not used.
-    pub columns: [[f64; FIELD]; D],
+pub(super) struct Strain<Eight> {
+    /// Columns; those of directions that space has not are zero.
+    pub columns: Matrix<Eight>,
     /// Around the axis.
-    pub hoop: f64,
+    pub hoop: Eight,
 }
 
-impl<const D: usize> Default for Strain<D> {
-    fn default() -> Self {
-        Self {
-            columns: [[0.0; FIELD]; D],
-            hoop: 0.0,
-        }
-    }
+/// The strains of eight particles in memory.
+pub(super) type StoredStrain = Strain<[f64; EIGHT]>;
+
+impl StoredStrain {
+    pub(super) const NONE: Self = Self {
+        columns: [[[0.0; EIGHT]; 3]; 3],
+        hoop: [0.0; EIGHT],
+    };
 }
 
-impl<const D: usize> Strain<D> {
-    /// Work of a stress per present volume, J/m³.
+impl<Eight: Copy> Strain<Eight> {
     #[inline(always)]
-    pub fn work(&self, stress: &Sym) -> f64 {
-        let full = stress.to_matrix();
-        let mut work = full.m33 * self.hoop;
+    pub(super) fn store<L: Lanes<Eight = Eight>, const D: usize>(
+        &self,
+        lanes: L,
+        to: &mut StoredStrain,
+    ) {
         for j in 0..D {
             for i in 0..D {
-                work += full[(i, j)] * self.columns[j][i];
+                lanes.store(self.columns[j][i], &mut to.columns[j][i]);
+            }
+        }
+        lanes.store(self.hoop, &mut to.hoop);
+    }
+
+    /// Work of stresses, given column by column, per present volume, J/m³.
+    #[inline(always)]
+    pub(super) fn work<L: Lanes<Eight = Eight>, const D: usize>(
+        &self,
+        lanes: L,
+        stress: &Matrix<Eight>,
+    ) -> Eight {
+        let mut work = lanes.mul(stress[2][2], self.hoop);
+        for j in 0..D {
+            for i in 0..D {
+                work = lanes.mul_add(stress[j][i], self.columns[j][i], work);
             }
         }
         work
     }
 }
 
+impl StoredStrain {
+    #[inline(always)]
+    pub(super) fn load<L: Lanes, const D: usize>(&self, lanes: L) -> Strain<L::Eight> {
+        let mut columns = [[lanes.splat(0.0); 3]; 3];
+        for j in 0..D {
+            for i in 0..D {
+                columns[j][i] = lanes.load(&self.columns[j][i]);
+            }
+        }
+        Strain {
+            columns,
+            hoop: lanes.load(&self.hoop),
+        }
+    }
+}
+
 impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     /// The first of these rows that the trial has outside the grid.
-    #[inline(always)]
     pub(super) fn first_outside(
         &self,
         mut rows: std::ops::Range<usize>,
         new: &MotionSlicesMut<'_, D>,
-    ) -> Option<usize> {
-        let grid = self.transfers.grid;
-        let mut all_inside = true;
-        for x in &new.position[rows.clone()] {
-            all_inside &= grid.contains(x);
-        }
-        if all_inside {
-            return None;
-        }
-        rows.find(|&row| !grid.contains(&new.position[row]))
+    ) -> usize {
+        let first = rows.start;
+        let outside = rows.find(|&row| !self.transfers.grid.contains(&new.position[row]));
+        outside.unwrap_or(first)
     }
 
+    /// New positions, from those at `x`, and velocities of the eight from row `first` on; whether all stay on the grid.
     #[inline(always)]
-    pub(super) fn move_particle<L: Lanes>(
+    pub(super) fn move_eight<L: Lanes>(
         &self,
         lanes: L,
-        row: usize,
-        gathered: &Gathered<L::Four, D>,
-        carried: Option<L::Four>,
+        first: usize,
+        x: &[[f64; EIGHT]; D],
+        gathered: &Gathered<L::Eight, D>,
+        carried: Option<&Gathered<L::Eight, D>>,
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
-    ) {
-        let end: SVector<f64, D> = vector(&lanes.store4(gathered.value));
-        new.position[row] = old.position[row] + end * self.dt;
-        let carried = carried.map(|carried| vector(&lanes.store4(carried)));
-        new.velocity[row] = match (self.transfer, carried) {
+    ) -> bool {
+        let (mut moved, mut velocity) = ([lanes.splat(0.0); D], [lanes.splat(0.0); D]);
+        let mut places = *x;
+        // Rounded after the product, as they are made again from the velocities.
+        for axis in 0..D {
+            let end = gathered.value[axis];
+            let way = lanes.mul(end, lanes.splat(self.dt));
+            moved[axis] = lanes.add(lanes.load(&x[axis]), way);
+            lanes.store(moved[axis], &mut places[axis]);
+            velocity[axis] = end;
+        }
+        write_columns(lanes, &moved, &mut new.position[first..]);
+        match (self.transfer, carried) {
             (Transfer::Flip { pic }, Some(gain)) => {
-                (old.velocity[row] + gain) * (1.0 - pic) + end * pic
+                let mut before = [lanes.splat(0.0); D];
+                read_columns(lanes, &old.velocity[first..], &mut before);
+                for axis in 0..D {
+                    let flip = lanes.add(before[axis], gain.value[axis]);
+                    let flip = lanes.mul(flip, lanes.splat(1.0 - pic));
+                    velocity[axis] = lanes.mul_add(velocity[axis], lanes.splat(pic), flip);
+                }
             }
-            (_, Some(filtered)) => filtered,
-            (_, None) => end,
-        };
+            (_, Some(filtered)) => velocity.copy_from_slice(&filtered.value[..D]),
+            (_, None) => {}
+        }
+        write_columns(lanes, &velocity, &mut new.velocity[first..]);
+        self.transfers.grid.contains_all(&places)
     }
 
-    /// By the moments on splines, else the velocity gradient.
+    /// Writes affine parts: by the moments on splines, else the velocity gradient.
     #[inline(always)]
-    pub(super) fn affine_part<L: Lanes, const MOMENT: bool>(
+    pub(super) fn write_affine<L: Lanes, const MOMENT: bool>(
         &self,
         lanes: L,
-        gathered: &Gathered<L::Four, D>,
-    ) -> SMatrix<f64, D, D> {
+        first: usize,
+        gathered: &Gathered<L::Eight, D>,
+        new: &mut MotionSlicesMut<'_, D>,
+    ) {
         let columns = if MOMENT {
-            scaled(lanes, &gathered.moment, self.affine_inverse.unwrap_or(0.0))
+            let inverse = self.affine_inverse.unwrap_or(0.0);
+            scaled(lanes, &gathered.moment, inverse)
         } else {
-            gradient(lanes, gathered)
+            gradient::<L, S, D>(lanes, gathered)
         };
-        matrix(lanes, &columns)
+        let mut numbers = [lanes.splat(0.0); 9];
+        for j in 0..D {
+            numbers[D * j..D * (j + 1)].copy_from_slice(&columns[j][..D]);
+        }
+        write_columns(lanes, &numbers[..D * D], &mut new.affine[first..]);
     }
 
+    /// Strain of eight at `x`.
+    #[inline(always)]
+    pub(super) fn strain<L: Lanes>(
+        &self,
+        lanes: L,
+        x: &[[f64; EIGHT]; D],
+        gathered: &Gathered<L::Eight, D>,
+    ) -> Strain<L::Eight> {
+        let zero = lanes.splat(0.0);
+        let mut columns = [[zero; 3]; 3];
+        let change = scaled(lanes, &gradient::<L, S, D>(lanes, gathered), self.dt);
+        for j in 0..D {
+            columns[j][..D].copy_from_slice(&change[j][..D]);
+        }
+        let mut hoop = zero;
+        if self.transfers.kinematics == Kinematics::Axisymmetric {
+            let around = lanes.mul(gathered.value[0], lanes.splat(self.dt));
+            hoop = lanes.div(around, lanes.load(&x[0]));
+        }
+        Strain { columns, hoop }
+    }
+
+    /// Deformation gradients after a strain, column by column.
     #[inline(always)]
     pub(super) fn strained<L: Lanes>(
         &self,
         lanes: L,
-        mut change: [L::Four; D],
-        hoop: f64,
-        f_old: &Matrix3<f64>,
-    ) -> Matrix3<f64> {
+        strain: &Strain<L::Eight>,
+        f_old: &Matrix<L::Eight>,
+    ) -> Matrix<L::Eight> {
+        let mut change = strain.columns;
+        let one = lanes.splat(1.0);
         if self.backward {
-            let one = SMatrix::<f64, D, D>::identity();
-            if let Some(inverse) = (one - matrix(lanes, &change)).try_inverse() {
-                change = columns(lanes, &(inverse - one));
+            // (1 − ΔL)⁻¹ − 1.
+            let unit = identity(lanes);
+            for (column, unit) in change.iter_mut().zip(&unit) {
+                for (number, unit) in column.iter_mut().zip(unit) {
+                    *number = lanes.sub(*unit, *number);
+                }
+            }
+            change = inverse::<L, D>(lanes, &change);
+            for j in 0..D {
+                change[j][j] = lanes.sub(change[j][j], one);
             }
         }
-        // Columns of F with a fourth number that is not used.
         let mut f = *f_old;
         for k in 0..3 {
-            let mut column = lanes.load4([f_old[(0, k)], f_old[(1, k)], f_old[(2, k)], 0.0]);
             for j in 0..D {
-                column = lanes.mul_add4(change[j], lanes.splat4(f_old[(j, k)]), column);
-            }
-            let column = lanes.store4(column);
-            for i in 0..3 {
-                f[(i, k)] = column[i];
+                for i in 0..D {
+                    f[k][i] = lanes.mul_add(change[j][i], f_old[k][j], f[k][i]);
+                }
             }
         }
         if self.transfers.kinematics == Kinematics::Axisymmetric {
-            f.m33 *= if self.backward {
-                1.0 / (1.0 - hoop)
+            let stretch = if self.backward {
+                lanes.div(one, lanes.sub(one, strain.hoop))
             } else {
-                1.0 + hoop
+                lanes.add(one, strain.hoop)
             };
+            f[2][2] = lanes.mul(f[2][2], stretch);
         }
         f
     }
+}
 
-    /// Strain around the axis in the step.
-    #[inline(always)]
-    pub(super) fn hoop<L: Lanes>(
-        &self,
-        lanes: L,
-        gathered: &Gathered<L::Four, D>,
-        x: &SVector<f64, D>,
-    ) -> f64 {
-        if self.transfers.kinematics == Kinematics::Axisymmetric {
-            self.dt * lanes.store4(gathered.value)[0] / x[0]
-        } else {
-            0.0
-        }
-    }
+/// Present volumes of the eight particles from row `first` on, m³.
+#[inline(always)]
+pub(super) fn volumes<L: Lanes>(
+    lanes: L,
+    first: usize,
+    volume: &[f64],
+    f: &Matrix<L::Eight>,
+) -> L::Eight {
+    let rest = read_numbers(lanes, &volume[first..]);
+    lanes.mul(rest, crate::eight::determinant(lanes, f))
 }
 
 /// Columns of the velocity gradient. Σ∇N = 0, so the particle's own velocity may be taken off; a node
 /// without mass (N = 0 but ∇N ≠ 0, on the face of a cell) then moves with the particle.
 #[inline(always)]
-pub(super) fn gradient<L: Lanes, const D: usize>(
+fn gradient<L: Lanes, S: Shape<D>, const D: usize>(
     lanes: L,
-    gathered: &Gathered<L::Four, D>,
-) -> [L::Four; D] {
+    gathered: &Gathered<L::Eight, D>,
+) -> [[L::Eight; FIELD]; D] {
     let mut columns = gathered.gradient;
-    for column in &mut columns {
-        let massive = lanes.store4(*column)[MASSIVE];
-        *column = lanes.mul_add4(gathered.value, lanes.splat4(-massive), *column);
+    if !<S::Stencils as Stencils<D>>::SMOOTH {
+        for column in &mut columns {
+            let massive = column[MASSIVE];
+            for i in 0..D {
+                column[i] = lanes.sub(column[i], lanes.mul(gathered.value[i], massive));
+            }
+        }
     }
     columns
 }
 
 /// Columns times a number.
 #[inline(always)]
-pub(super) fn scaled<L: Lanes, const D: usize>(
+fn scaled<L: Lanes, const D: usize>(
     lanes: L,
-    columns: &[L::Four; D],
+    columns: &[[L::Eight; FIELD]; D],
     factor: f64,
-) -> [L::Four; D] {
+) -> [[L::Eight; FIELD]; D] {
     let mut scaled = *columns;
     for column in &mut scaled {
-        *column = lanes.mul4(*column, lanes.splat4(factor));
+        for number in column {
+            *number = lanes.mul(*number, lanes.splat(factor));
+        }
     }
     scaled
-}
-
-/// The matrix of these columns.
-#[inline(always)]
-fn matrix<L: Lanes, const D: usize>(lanes: L, columns: &[L::Four; D]) -> SMatrix<f64, D, D> {
-    let mut matrix = SMatrix::zeros();
-    for j in 0..D {
-        let column = lanes.store4(columns[j]);
-        for i in 0..D {
-            matrix[(i, j)] = column[i];
-        }
-    }
-    matrix
-}
-
-/// The columns of a matrix.
-#[inline(always)]
-fn columns<L: Lanes, const D: usize>(lanes: L, matrix: &SMatrix<f64, D, D>) -> [L::Four; D] {
-    let mut columns = [lanes.splat4(0.0); D];
-    for j in 0..D {
-        let mut column = [0.0; 4];
-        for i in 0..D {
-            column[i] = matrix[(i, j)];
-        }
-        columns[j] = lanes.load4(column);
-    }
-    columns
 }

@@ -1,0 +1,357 @@
+//! Eight stencils that are products of a weight per axis.
+
+use std::hint::black_box;
+
+use super::Stencils;
+use crate::axes::Numbers;
+use crate::separable::Profile;
+use crate::simd::{EIGHT, Lanes};
+use crate::stencil::{FIELD, Gathered, Gift, SUMS};
+use crate::{Grid, TILE, WINDOW, WINDOW_START, sums_entry};
+
+/// Window stride of axis 1.
+const ROW: usize = WINDOW as usize;
+/// A number whose last bit counts ones: added to a whole number it leaves that in its last bits.
+const LAST_BIT_ONE: f64 = 4_503_599_627_370_496.0;
+/// Bits of a window index.
+const ENTRY: u64 = 511;
+/// Window stride of axis 2.
+const LAYER: usize = (WINDOW * WINDOW) as usize;
+
+/// Stencils that are products of one weight per axis, K nodes along each of D axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeparableStencils<const D: usize, const K: usize> {
+    along: [Along<K>; D],
+    /// Window index of the lowest node, 0 if the particle does not fit.
+    base: [u64; EIGHT],
+    fitting: u8,
+}
+
+/// The weights of K nodes along an axis, each for eight particles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+struct Along<const K: usize> {
+    values: [[f64; EIGHT]; K],
+    /// Derivatives of the values, 1/m.
+    slopes: [[f64; EIGHT]; K],
+    /// Values times arms, m.
+    moments: [[f64; EIGHT]; K],
+}
+
+impl<const K: usize> Along<K> {
+    const NOTHING: Self = Self {
+        values: [[0.0; EIGHT]; K],
+        slopes: [[0.0; EIGHT]; K],
+        moments: [[0.0; EIGHT]; K],
+    };
+
+    /// Sets the weights along an axis and adds to `base` and `fits`.
+    #[inline(always)]
+    fn set<const D: usize>(
+        &mut self,
+        grid: &Grid<D>,
+        axis: usize,
+        tile: i32,
+        x: &[[f64; EIGHT]; D],
+        profile: &impl Profile<K>,
+        (base, fits): (&mut Numbers<EIGHT>, &mut Numbers<EIGHT>),
+    ) {
+        let position = Numbers(x[axis]);
+        let (cell, local) = grid.along(axis, position);
+        let (first, values, slopes) = profile.line(local);
+        let window = f64::from(TILE) * f64::from(tile) + f64::from(WINDOW_START);
+        let start = cell + first + -window;
+        *fits = *fits
+            * start.within(0.0, f64::from(WINDOW) - K as f64)
+            * position.within(grid.origin()[axis], grid.max()[axis]);
+        *base = *base + start * (1 << (3 * axis)) as f64;
+        let arm = (first - local) * grid.spacing();
+        for k in 0..K {
+            self.values[k] = values[k].0;
+            self.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
+            self.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
+        }
+    }
+
+    /// Value, slope and value times arm of a node, for eight particles.
+    #[inline(always)]
+    fn at<L: Lanes>(&self, lanes: L, k: usize) -> [L::Eight; 3] {
+        [
+            lanes.load(&self.values[k]),
+            lanes.load(&self.slopes[k]),
+            lanes.load(&self.moments[k]),
+        ]
+    }
+}
+
+/// Numbers of a node for eight particles, whose first nodes stand where `around` begins; the last one if `marked`.
+#[inline(always)]
+fn node_columns<L: Lanes, const D: usize>(
+    lanes: L,
+    around: &[&[f64]; EIGHT],
+    node: usize,
+    marked: bool,
+) -> [L::Eight; FIELD] {
+    let at = FIELD * node;
+    if D > 2 || marked {
+        return lanes.columns4([
+            numbers(around[0], at),
+            numbers(around[1], at),
+            numbers(around[2], at),
+            numbers(around[3], at),
+            numbers(around[4], at),
+            numbers(around[5], at),
+            numbers(around[6], at),
+            numbers(around[7], at),
+        ]);
+    }
+    let [a, b] = lanes.columns2([
+        numbers(around[0], at),
+        numbers(around[1], at),
+        numbers(around[2], at),
+        numbers(around[3], at),
+        numbers(around[4], at),
+        numbers(around[5], at),
+        numbers(around[6], at),
+        numbers(around[7], at),
+    ]);
+    let zero = lanes.splat(0.0);
+    [a, b, zero, zero]
+}
+
+/// Some numbers from a place on.
+#[inline(always)]
+fn numbers<const N: usize>(around: &[f64], at: usize) -> &[f64; N] {
+    around[at..].first_chunk().unwrap_or(&[0.0; N])
+}
+
+impl<const D: usize, const K: usize> SeparableStencils<D, K> {
+    /// Builds from the weights along an axis, given the particles' coordinates [0, 1] in their cells.
+    #[inline(always)]
+    pub(crate) fn new(
+        grid: &Grid<D>,
+        tile: [i32; D],
+        x: &[[f64; EIGHT]; D],
+        profile: &impl Profile<K>,
+    ) -> Self {
+        let mut along = [Along::NOTHING; D];
+        let (mut base, mut fits) = (Numbers::splat(0.0), Numbers::splat(1.0));
+        // Written out, so that no axis is a number at run time.
+        along[0].set(grid, 0, tile[0], x, profile, (&mut base, &mut fits));
+        if D > 1 {
+            along[1 % D].set(grid, 1, tile[1 % D], x, profile, (&mut base, &mut fits));
+        }
+        if D > 2 {
+            along[2 % D].set(grid, 2, tile[2 % D], x, profile, (&mut base, &mut fits));
+        }
+        let mut stencils = Self {
+            along,
+            base: [0; EIGHT],
+            fitting: 0,
+        };
+        let base = base * fits;
+        for place in 0..EIGHT {
+            stencils.base[place] = (base.0[place] + LAST_BIT_ONE).to_bits() & ENTRY;
+            stencils.fitting |= u8::from(fits.0[place] == 1.0) << place;
+        }
+        stencils
+    }
+
+    /// Nothing that fits.
+    pub(crate) fn none() -> Self {
+        Self {
+            along: [Along::NOTHING; D],
+            base: [0; EIGHT],
+            fitting: 0,
+        }
+    }
+
+    /// Window index of the lowest node, 0 if the particle does not fit.
+    #[inline(always)]
+    fn base(&self, place: usize) -> usize {
+        self.base[place] as usize
+    }
+
+    /// Nodes along an axis; the axes that space has not have one.
+    #[inline(always)]
+    fn nodes(axis: usize) -> usize {
+        if axis < D { K } else { 1 }
+    }
+
+    /// Nodes from the stencil's first to its last.
+    const SPAN: usize = match D {
+        1 => K,
+        2 => ROW * (K - 1) + K,
+        _ => (ROW + LAYER) * (K - 1) + K,
+    };
+
+    /// Sums from the stencil's first node to its last.
+    const SUMS_SPAN: usize = match D {
+        1 => K,
+        2 => ROW * (K - 1) + K,
+        _ => (ROW + sums_entry(LAYER)) * (K - 1) + K,
+    };
+
+    /// What goes by slope and arm along an axis (`pairs`: weighted arm and slope of each node) is made once for each of its
+    /// nodes; a node then costs two multiply-adds.
+    #[inline(always)]
+    fn scatter_one<L: Lanes, const E: bool>(
+        &self,
+        lanes: L,
+        place: usize,
+        pairs: &[[[[f64; 2]; EIGHT]; K]; D],
+        gift: &Gift<D>,
+        sums: &mut [[f64; SUMS]],
+    ) {
+        let value = lanes.load(&gift.value);
+        let zero = lanes.splat(0.0);
+        let mut extra = [[zero; K]; 3];
+        if E {
+            for axis in 1..D {
+                let sloped = lanes.load(&gift.sloped[axis]);
+                for (k, extra) in extra[axis].iter_mut().enumerate() {
+                    *extra = lanes.mul(sloped, lanes.pair(&pairs[axis][k][place]));
+                }
+            }
+        }
+        let sloped = lanes.load(&gift.sloped[0]);
+        let base = sums_entry(self.base(place));
+        let sums = &mut sums[base..base + Self::SUMS_SPAN];
+        for i in 0..rolled::<D>(K) {
+            let w0 = self.along[0].values[i][place];
+            let mut along_0 = lanes.mul(value, lanes.splat(w0));
+            if E {
+                let pair = lanes.pair(&pairs[0][i][place]);
+                along_0 = lanes.mul_add(sloped, pair, along_0);
+            }
+            for j in 0..Self::nodes(1) {
+                let node = ROW * j + i;
+                if D == 1 {
+                    let sum = lanes.load(&sums[node]);
+                    add(lanes, along_0, 1.0, sum, &mut sums[node]);
+                    continue;
+                }
+                let w1 = self.along[1 % D].values[j][place];
+                if D == 2 {
+                    let mut sum = lanes.load(&sums[node]);
+                    if E {
+                        sum = lanes.mul_add(extra[1][j], lanes.splat(w0), sum);
+                    }
+                    add(lanes, along_0, w1, sum, &mut sums[node]);
+                    continue;
+                }
+                let mut along_1 = lanes.mul(along_0, lanes.splat(w1));
+                if E {
+                    along_1 = lanes.mul_add(extra[1][j], lanes.splat(w0), along_1);
+                }
+                let both = lanes.splat(w0 * w1);
+                for (k, extra) in extra[2].iter().enumerate() {
+                    let node = sums_entry(LAYER) * k + node;
+                    let mut sum = lanes.load(&sums[node]);
+                    if E {
+                        sum = lanes.mul_add(*extra, both, sum);
+                    }
+                    add(
+                        lanes,
+                        along_1,
+                        self.along[2 % D].values[k][place],
+                        sum,
+                        &mut sums[node],
+                    );
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
+    #[inline(always)]
+    fn fitting(&self) -> u8 {
+        self.fitting
+    }
+
+    const SMOOTH: bool = K > 2;
+
+    /// Eight particles at once: a node's numbers are read for each and brought into columns. Sums go along axis 0 first,
+    /// then 1, then 2, so that each of those with slopes and arms starts from one of few partial ones.
+    #[inline(always)]
+    fn gather<L: Lanes, const G: bool, const M: bool>(
+        &self,
+        lanes: L,
+        field: &[f64],
+    ) -> Gathered<L::Eight, D> {
+        let mut around = [&field[..0]; EIGHT];
+        for (place, around) in around.iter_mut().enumerate() {
+            *around = &field[FIELD * self.base(place)..][..FIELD * Self::SPAN];
+        }
+        let nothing = Gathered::<L::Eight, D>::of(lanes.splat(0.0));
+        let mut all = nothing;
+        for k in 0..rolled::<D>(Self::nodes(2)) {
+            let mut layer = nothing;
+            for j in 0..Self::nodes(1) {
+                let mut line = nothing;
+                for i in 0..K {
+                    let v = node_columns::<L, D>(
+                        lanes,
+                        &around,
+                        LAYER * k + ROW * j + i,
+                        G && !Self::SMOOTH,
+                    );
+                    let factors = self.along[0].at(lanes, i);
+                    line.add::<L, G, M>(lanes, &v, factors, 0);
+                }
+                if D > 1 {
+                    let factors = self.along[1 % D].at(lanes, j);
+                    layer.add_partial::<L, G, M>(lanes, &line, factors, 1);
+                } else {
+                    layer = line;
+                }
+            }
+            if D > 2 {
+                let factors = self.along[2 % D].at(lanes, k);
+                all.add_partial::<L, G, M>(lanes, &layer, factors, 2);
+            } else {
+                all = layer;
+            }
+        }
+        all
+    }
+
+    /// Particle by particle.
+    #[inline(always)]
+    fn scatter<L: Lanes, const E: bool>(
+        &self,
+        lanes: L,
+        gifts: &[Gift<D>; EIGHT],
+        count: usize,
+        sums: &mut [[f64; SUMS]],
+    ) {
+        let mut pairs = [[[[0.0; 2]; EIGHT]; K]; D];
+        if E {
+            for axis in 0..D {
+                for k in 0..K {
+                    let [_, slope, arm] = self.along[axis].at(lanes, k);
+                    pairs[axis][k] = lanes.rows2([arm, slope]);
+                }
+            }
+        }
+        for (place, gift) in gifts.iter().enumerate().take(count) {
+            if self.fits(place) {
+                self.scatter_one::<L, E>(lanes, place, &pairs, gift, sums);
+            }
+        }
+    }
+}
+
+/// The end of a loop that in space is to stay one: with all of its turns written out there would be more numbers at
+/// hand than registers.
+#[inline(always)]
+fn rolled<const D: usize>(end: usize) -> usize {
+    if D == 3 { black_box(end) } else { end }
+}
+
+/// Stores `x weight + sum`.
+#[inline(always)]
+fn add<L: Lanes>(lanes: L, x: L::Eight, weight: f64, sum: L::Eight, to: &mut [f64; SUMS]) {
+    lanes.store(lanes.mul_add(x, lanes.splat(weight), sum), to);
+}

@@ -1,0 +1,232 @@
+//! What is stored particle by particle, brought to vector units component by component.
+
+use nalgebra::SMatrix;
+
+use super::{EIGHT, Lanes};
+use crate::Sym;
+
+/// Some numbers that stand in a row.
+pub trait Row {
+    /// To read.
+    fn numbers(&self) -> &[f64];
+    /// To write.
+    fn numbers_mut(&mut self) -> &mut [f64];
+}
+
+/// Column by column.
+impl<const R: usize, const C: usize> Row for SMatrix<f64, R, C> {
+    #[inline(always)]
+    fn numbers(&self) -> &[f64] {
+        self.as_slice()
+    }
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        self.as_mut_slice()
+    }
+}
+
+/// Mandel components.
+impl Row for Sym {
+    #[inline(always)]
+    fn numbers(&self) -> &[f64] {
+        &self.mandel
+    }
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        &mut self.mandel
+    }
+}
+
+impl<const N: usize> Row for [f64; N] {
+    #[inline(always)]
+    fn numbers(&self) -> &[f64] {
+        self
+    }
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        self
+    }
+}
+
+/// The first numbers of the first eight of these rows, as many as there are `columns`. Where there are fewer rows the last
+/// stands in for those that are not there.
+#[inline(always)]
+pub fn read_columns<L: Lanes, T: Row>(lanes: L, rows: &[T], columns: &mut [L::Eight]) {
+    if let Some(eight) = rows.first_chunk() {
+        return read_eight(lanes, eight, columns);
+    }
+    for (c, column) in columns.iter_mut().enumerate() {
+        let mut numbers = [0.0; EIGHT];
+        for (place, number) in numbers.iter_mut().enumerate() {
+            *number = rows[place.min(rows.len() - 1)].numbers()[c];
+        }
+        *column = lanes.load(&numbers);
+    }
+}
+
+/// The first eight of these numbers, as [`read_columns`].
+#[inline(always)]
+pub fn read_numbers<L: Lanes>(lanes: L, numbers: &[f64]) -> L::Eight {
+    match numbers.first_chunk() {
+        Some(eight) => lanes.load(eight),
+        None => {
+            let mut padded = [0.0; EIGHT];
+            for (place, number) in padded.iter_mut().enumerate() {
+                *number = numbers[place.min(numbers.len() - 1)];
+            }
+            lanes.load(&padded)
+        }
+    }
+}
+
+/// Writes `columns` to the first numbers of the first eight of these rows, or of all if they are fewer.
+#[inline(always)]
+pub fn write_columns<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T]) {
+    if let Some(eight) = rows.first_chunk_mut() {
+        return write_eight(lanes, columns, eight);
+    }
+    for (c, column) in columns.iter().enumerate() {
+        let mut numbers = [0.0; EIGHT];
+        lanes.store(*column, &mut numbers);
+        for (row, number) in rows.iter_mut().zip(numbers) {
+            row.numbers_mut()[c] = number;
+        }
+    }
+}
+
+#[inline(always)]
+fn read_eight<L: Lanes, T: Row>(lanes: L, rows: &[T; EIGHT], columns: &mut [L::Eight]) {
+    let mut c = 0;
+    while c + 4 <= columns.len() {
+        let four = [
+            chunk(&rows[0], c),
+            chunk(&rows[1], c),
+            chunk(&rows[2], c),
+            chunk(&rows[3], c),
+            chunk(&rows[4], c),
+            chunk(&rows[5], c),
+            chunk(&rows[6], c),
+            chunk(&rows[7], c),
+        ];
+        columns[c..c + 4].copy_from_slice(&lanes.columns4(four));
+        c += 4;
+    }
+    if c + 2 <= columns.len() {
+        let two = [
+            chunk(&rows[0], c),
+            chunk(&rows[1], c),
+            chunk(&rows[2], c),
+            chunk(&rows[3], c),
+            chunk(&rows[4], c),
+            chunk(&rows[5], c),
+            chunk(&rows[6], c),
+            chunk(&rows[7], c),
+        ];
+        columns[c..c + 2].copy_from_slice(&lanes.columns2(two));
+        c += 2;
+    }
+    if c < columns.len() {
+        let mut ones = [0.0; EIGHT];
+        for (one, row) in ones.iter_mut().zip(rows) {
+            *one = row.numbers()[c];
+        }
+        columns[c] = lanes.load(&ones);
+    }
+}
+
+#[inline(always)]
+fn write_eight<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T; EIGHT]) {
+    let mut c = 0;
+    while c + 4 <= columns.len() {
+        let four = [columns[c], columns[c + 1], columns[c + 2], columns[c + 3]];
+        for (row, four) in rows.iter_mut().zip(lanes.rows4(four)) {
+            row.numbers_mut()[c..c + 4].copy_from_slice(&four);
+        }
+        c += 4;
+    }
+    if c + 2 <= columns.len() {
+        for (row, two) in rows
+            .iter_mut()
+            .zip(lanes.rows2([columns[c], columns[c + 1]]))
+        {
+            row.numbers_mut()[c..c + 2].copy_from_slice(&two);
+        }
+        c += 2;
+    }
+    if c < columns.len() {
+        let mut ones = [0.0; EIGHT];
+        lanes.store(columns[c], &mut ones);
+        for (row, one) in rows.iter_mut().zip(ones) {
+            row.numbers_mut()[c] = one;
+        }
+    }
+}
+
+/// Numbers of a row from one on; zeros, if it has not that many.
+#[inline(always)]
+fn chunk<T: Row, const N: usize>(row: &T, at: usize) -> &[f64; N] {
+    row.numbers()[at..].first_chunk().unwrap_or(&[0.0; N])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{Simd, SimdTask};
+
+    /// So many of these rows.
+    struct ThereAndBack<T>([T; EIGHT], usize);
+
+    impl<T: Row + Copy> SimdTask for ThereAndBack<T> {
+        type Output = (Vec<[f64; EIGHT]>, [T; EIGHT]);
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+            let count = self.0[0].numbers().len();
+            let mut columns = [lanes.splat(0.0); 9];
+            read_columns(lanes, &self.0[..self.1], &mut columns[..count]);
+            let mut rows = self.0;
+            for row in &mut rows[..self.1] {
+                row.numbers_mut().fill(f64::NAN);
+            }
+            write_columns(lanes, &columns[..count], &mut rows[..self.1]);
+            let stored = |column: &L::Eight| {
+                let mut to = [0.0; EIGHT];
+                lanes.store(*column, &mut to);
+                to
+            };
+            (columns[..count].iter().map(stored).collect(), rows)
+        }
+    }
+
+    fn comes_back<T: Row + Copy + PartialEq + std::fmt::Debug>(mut rows: [T; EIGHT]) {
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, number) in row.numbers_mut().iter_mut().enumerate() {
+                *number = (10 * i + j) as f64;
+            }
+        }
+        for unit in ["plain", "avx2", "avx512"]
+            .into_iter()
+            .filter_map(Simd::named)
+        {
+            for count in [1, 5, EIGHT] {
+                let (columns, back) = unit.run(ThereAndBack(rows, count));
+                assert_eq!(back, rows);
+                for (j, column) in columns.iter().enumerate() {
+                    let exact = std::array::from_fn(|i| rows[i.min(count - 1)].numbers()[j]);
+                    assert_eq!(*column, exact);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rows_of_any_length_come_back() {
+        comes_back([[0.0; 1]; EIGHT]);
+        comes_back([SMatrix::<f64, 2, 1>::zeros(); EIGHT]);
+        comes_back([SMatrix::<f64, 3, 1>::zeros(); EIGHT]);
+        comes_back([SMatrix::<f64, 2, 2>::zeros(); EIGHT]);
+        comes_back([Sym::default(); EIGHT]);
+        comes_back([[0.0; 7]; EIGHT]);
+        comes_back([SMatrix::<f64, 3, 3>::zeros(); EIGHT]);
+    }
+}

@@ -1,0 +1,332 @@
+//! Eight numbers on AVX-512, and as two times four on AVX2.
+
+use pulp::x86::{V3, V4};
+use pulp::{Simd as _, cast, f64x2, f64x4, f64x8};
+
+use super::Lanes;
+
+impl Lanes for V4 {
+    type Eight = f64x8;
+
+    #[inline(always)]
+    fn splat(self, x: f64) -> f64x8 {
+        self.splat_f64x8(x)
+    }
+    #[inline(always)]
+    fn load(self, x: &[f64; 8]) -> f64x8 {
+        cast(*x)
+    }
+    #[inline(always)]
+    fn store(self, x: f64x8, to: &mut [f64; 8]) {
+        *to = cast(x);
+    }
+    #[inline(always)]
+    fn add(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.add_f64s(a, b)
+    }
+    #[inline(always)]
+    fn sub(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.sub_f64s(a, b)
+    }
+    #[inline(always)]
+    fn div(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.div_f64s(a, b)
+    }
+    #[inline(always)]
+    fn mul(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.mul_f64s(a, b)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
+        self.mul_add_f64x8(a, b, c)
+    }
+    #[inline(always)]
+    fn pair(self, numbers: &[f64; 2]) -> f64x8 {
+        let two: f64x2 = cast(*numbers);
+        let low = self.avx512f._mm512_castpd128_pd512(cast(two));
+        let both = self.avx512f._mm512_shuffle_f64x2::<0>(low, low);
+        cast(self.avx512f._mm512_permute_pd::<0b1111_0000>(both))
+    }
+    #[inline(always)]
+    fn max(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.max_f64s(a, b)
+    }
+    #[inline(always)]
+    fn transpose(self, r: [f64x8; 8]) -> [f64x8; 8] {
+        let (a, b) = (
+            self.columns_of_four([r[0], r[1], r[2], r[3]]),
+            self.columns_of_four([r[4], r[5], r[6], r[7]]),
+        );
+        // Each of these holds a column of its lower half and one of its upper half.
+        let low = |k: usize| self.halves::<0b01_00_01_00>(a[k], b[k]);
+        let high = |k: usize| self.halves::<0b11_10_11_10>(a[k], b[k]);
+        [
+            low(0),
+            low(1),
+            low(2),
+            low(3),
+            high(0),
+            high(1),
+            high(2),
+            high(3),
+        ]
+    }
+    #[inline(always)]
+    fn columns4(self, r: [&[f64; 4]; 8]) -> [f64x8; 4] {
+        self.columns_of_four([
+            self.joined(cast(*r[0]), cast(*r[4])),
+            self.joined(cast(*r[1]), cast(*r[5])),
+            self.joined(cast(*r[2]), cast(*r[6])),
+            self.joined(cast(*r[3]), cast(*r[7])),
+        ])
+    }
+    #[inline(always)]
+    fn rows4(self, columns: [f64x8; 4]) -> [[f64; 4]; 8] {
+        // The same step turns back.
+        let [a, b, c, d] = self.columns_of_four(columns);
+        let (a, b, c, d) = (self.split(a), self.split(b), self.split(c), self.split(d));
+        [
+            cast(a[0]),
+            cast(b[0]),
+            cast(c[0]),
+            cast(d[0]),
+            cast(a[1]),
+            cast(b[1]),
+            cast(c[1]),
+            cast(d[1]),
+        ]
+    }
+    #[inline(always)]
+    fn columns2(self, r: [&[f64; 2]; 8]) -> [f64x8; 2] {
+        let (a, b) = (self.joined2(*r[0], *r[2]), self.joined2(*r[4], *r[6]));
+        let (c, d) = (self.joined2(*r[1], *r[3]), self.joined2(*r[5], *r[7]));
+        self.interleaved(self.joined(a, b), self.joined(c, d))
+    }
+    #[inline(always)]
+    fn rows2(self, columns: [f64x8; 2]) -> [[f64; 2]; 8] {
+        let [even, odd] = self.interleaved(columns[0], columns[1]);
+        let (even, odd) = (self.split(even), self.split(odd));
+        let (a, b) = (self.split2(even[0]), self.split2(odd[0]));
+        let (c, d) = (self.split2(even[1]), self.split2(odd[1]));
+        [a[0], b[0], a[1], b[1], c[0], d[0], c[1], d[1]]
+    }
+}
+
+/// Shuffles of AVX-512.
+trait Shuffle512: Copy {
+    /// One half and the other.
+    fn joined(self, low: f64x4, high: f64x4) -> f64x8;
+    /// The halves.
+    fn split(self, x: f64x8) -> [f64x4; 2];
+    /// `a0 b0 a2 b2 …` and `a1 b1 a3 b3 …`.
+    fn interleaved(self, a: f64x8, b: f64x8) -> [f64x8; 2];
+    /// Two pairs of `a`, then two of `b`, by their numbers.
+    fn halves<const PAIRS: i32>(self, a: f64x8, b: f64x8) -> f64x8;
+    /// Number k of four rows, then number 4 + k of them, for k from 0 to 3; its own inverse.
+    fn columns_of_four(self, rows: [f64x8; 4]) -> [f64x8; 4];
+}
+
+impl Shuffle512 for V4 {
+    #[inline(always)]
+    fn joined(self, low: f64x4, high: f64x4) -> f64x8 {
+        let low = self.avx512f._mm512_castpd256_pd512(cast(low));
+        cast(self.avx512f._mm512_insertf64x4::<1>(low, cast(high)))
+    }
+    #[inline(always)]
+    fn split(self, x: f64x8) -> [f64x4; 2] {
+        let low = self.avx512f._mm512_castpd512_pd256(cast(x));
+        let high = self.avx512f._mm512_extractf64x4_pd::<1>(cast(x));
+        [cast(low), cast(high)]
+    }
+    #[inline(always)]
+    fn interleaved(self, a: f64x8, b: f64x8) -> [f64x8; 2] {
+        let (a, b) = (cast(a), cast(b));
+        [
+            cast(self.avx512f._mm512_unpacklo_pd(a, b)),
+            cast(self.avx512f._mm512_unpackhi_pd(a, b)),
+        ]
+    }
+    #[inline(always)]
+    fn halves<const PAIRS: i32>(self, a: f64x8, b: f64x8) -> f64x8 {
+        let (a, b) = (cast(a), cast(b));
+        cast(self.avx512f._mm512_shuffle_f64x2::<PAIRS>(a, b))
+    }
+    #[inline(always)]
+    fn columns_of_four(self, rows: [f64x8; 4]) -> [f64x8; 4] {
+        const LOW: [u64; 8] = [0, 1, 8, 9, 4, 5, 12, 13];
+        const HIGH: [u64; 8] = [2, 3, 10, 11, 6, 7, 14, 15];
+        let [even, odd] = self.interleaved(rows[0], rows[1]);
+        let [even_2, odd_2] = self.interleaved(rows[2], rows[3]);
+        let pick = |a: f64x8, places: [u64; 8], b: f64x8| -> f64x8 {
+            let (a, b) = (cast(a), cast(b));
+            let places = cast(places);
+            cast(self.avx512f._mm512_permutex2var_pd(a, places, b))
+        };
+        [
+            pick(even, LOW, even_2),
+            pick(odd, LOW, odd_2),
+            pick(even, HIGH, even_2),
+            pick(odd, HIGH, odd_2),
+        ]
+    }
+}
+
+impl Lanes for V3 {
+    type Eight = [f64x4; 2];
+
+    #[inline(always)]
+    fn splat(self, x: f64) -> [f64x4; 2] {
+        [self.splat_f64x4(x); 2]
+    }
+    #[inline(always)]
+    fn load(self, x: &[f64; 8]) -> [f64x4; 2] {
+        cast(*x)
+    }
+    #[inline(always)]
+    fn store(self, x: [f64x4; 2], to: &mut [f64; 8]) {
+        *to = cast(x);
+    }
+    #[inline(always)]
+    fn add(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
+        [self.add_f64s(a[0], b[0]), self.add_f64s(a[1], b[1])]
+    }
+    #[inline(always)]
+    fn sub(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
+        [self.sub_f64s(a[0], b[0]), self.sub_f64s(a[1], b[1])]
+    }
+    #[inline(always)]
+    fn div(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
+        [self.div_f64s(a[0], b[0]), self.div_f64s(a[1], b[1])]
+    }
+    #[inline(always)]
+    fn mul(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
+        [self.mul_f64s(a[0], b[0]), self.mul_f64s(a[1], b[1])]
+    }
+    #[inline(always)]
+    fn mul_add(self, a: [f64x4; 2], b: [f64x4; 2], c: [f64x4; 2]) -> [f64x4; 2] {
+        [
+            self.mul_add_f64x4(a[0], b[0], c[0]),
+            self.mul_add_f64x4(a[1], b[1], c[1]),
+        ]
+    }
+    #[inline(always)]
+    fn pair(self, [low, high]: &[f64; 2]) -> [f64x4; 2] {
+        [self.splat_f64x4(*low), self.splat_f64x4(*high)]
+    }
+    #[inline(always)]
+    fn max(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
+        [self.max_f64s(a[0], b[0]), self.max_f64s(a[1], b[1])]
+    }
+    #[inline(always)]
+    fn transpose(self, r: [[f64x4; 2]; 8]) -> [[f64x4; 2]; 8] {
+        let block = |half: usize, first: usize| {
+            self.turned([
+                r[first][half],
+                r[first + 1][half],
+                r[first + 2][half],
+                r[first + 3][half],
+            ])
+        };
+        let (a, b, c, d) = (block(0, 0), block(0, 4), block(1, 0), block(1, 4));
+        [
+            [a[0], b[0]],
+            [a[1], b[1]],
+            [a[2], b[2]],
+            [a[3], b[3]],
+            [c[0], d[0]],
+            [c[1], d[1]],
+            [c[2], d[2]],
+            [c[3], d[3]],
+        ]
+    }
+    #[inline(always)]
+    fn columns4(self, r: [&[f64; 4]; 8]) -> [[f64x4; 2]; 4] {
+        let a = self.turned([cast(*r[0]), cast(*r[1]), cast(*r[2]), cast(*r[3])]);
+        let b = self.turned([cast(*r[4]), cast(*r[5]), cast(*r[6]), cast(*r[7])]);
+        [[a[0], b[0]], [a[1], b[1]], [a[2], b[2]], [a[3], b[3]]]
+    }
+    #[inline(always)]
+    fn rows4(self, c: [[f64x4; 2]; 4]) -> [[f64; 4]; 8] {
+        let a = self.turned([c[0][0], c[1][0], c[2][0], c[3][0]]);
+        let b = self.turned([c[0][1], c[1][1], c[2][1], c[3][1]]);
+        [
+            cast(a[0]),
+            cast(a[1]),
+            cast(a[2]),
+            cast(a[3]),
+            cast(b[0]),
+            cast(b[1]),
+            cast(b[2]),
+            cast(b[3]),
+        ]
+    }
+    #[inline(always)]
+    fn columns2(self, r: [&[f64; 2]; 8]) -> [[f64x4; 2]; 2] {
+        let a = self.interleaved(self.joined2(*r[0], *r[2]), self.joined2(*r[1], *r[3]));
+        let b = self.interleaved(self.joined2(*r[4], *r[6]), self.joined2(*r[5], *r[7]));
+        [[a[0], b[0]], [a[1], b[1]]]
+    }
+    #[inline(always)]
+    fn rows2(self, columns: [[f64x4; 2]; 2]) -> [[f64; 2]; 8] {
+        let [even, odd] = self.interleaved(columns[0][0], columns[1][0]);
+        let (a, b) = (self.split2(even), self.split2(odd));
+        let [even, odd] = self.interleaved(columns[0][1], columns[1][1]);
+        let (c, d) = (self.split2(even), self.split2(odd));
+        [a[0], b[0], a[1], b[1], c[0], d[0], c[1], d[1]]
+    }
+}
+
+/// Shuffles of AVX2.
+trait Shuffle256: Copy {
+    /// One half and the other.
+    fn joined2(self, low: [f64; 2], high: [f64; 2]) -> f64x4;
+    /// The halves.
+    fn split2(self, x: f64x4) -> [[f64; 2]; 2];
+    /// `a0 b0 a2 b2` and `a1 b1 a3 b3`.
+    fn interleaved(self, a: f64x4, b: f64x4) -> [f64x4; 2];
+    /// The transpose.
+    fn turned(self, rows: [f64x4; 4]) -> [f64x4; 4];
+}
+
+impl Shuffle256 for V3 {
+    #[inline(always)]
+    fn joined2(self, low: [f64; 2], high: [f64; 2]) -> f64x4 {
+        let low: f64x2 = cast(low);
+        let high: f64x2 = cast(high);
+        let low = self.avx._mm256_castpd128_pd256(cast(low));
+        cast(self.avx._mm256_insertf128_pd::<1>(low, cast(high)))
+    }
+    #[inline(always)]
+    fn split2(self, x: f64x4) -> [[f64; 2]; 2] {
+        let low = self.avx._mm256_castpd256_pd128(cast(x));
+        let high = self.avx._mm256_extractf128_pd::<1>(cast(x));
+        [cast(low), cast(high)]
+    }
+    #[inline(always)]
+    fn interleaved(self, a: f64x4, b: f64x4) -> [f64x4; 2] {
+        let (a, b) = (cast(a), cast(b));
+        [
+            cast(self.avx._mm256_unpacklo_pd(a, b)),
+            cast(self.avx._mm256_unpackhi_pd(a, b)),
+        ]
+    }
+    #[inline(always)]
+    fn turned(self, rows: [f64x4; 4]) -> [f64x4; 4] {
+        let [even, odd] = self.interleaved(rows[0], rows[1]);
+        let [even_2, odd_2] = self.interleaved(rows[2], rows[3]);
+        let low = |a: f64x4, b: f64x4| -> f64x4 {
+            let (a, b) = (cast(a), cast(b));
+            cast(self.avx._mm256_permute2f128_pd::<0x20>(a, b))
+        };
+        let high = |a: f64x4, b: f64x4| -> f64x4 {
+            let (a, b) = (cast(a), cast(b));
+            cast(self.avx._mm256_permute2f128_pd::<0x31>(a, b))
+        };
+        [
+            low(even, even_2),
+            low(odd, odd_2),
+            high(even, even_2),
+            high(odd, odd_2),
+        ]
+    }
+}
