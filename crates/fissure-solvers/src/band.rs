@@ -35,6 +35,11 @@ impl BandSource {
         }
     }
 
+    /// Whether particles have bands of their own.
+    pub(crate) fn varies<S: Shape<D>, const D: usize>(self) -> bool {
+        S::BANDS && self == Self::Discretisation
+    }
+
     /// Refuses a scene with a body whose law has no unique response on this band.
     pub(crate) fn check<S: Shape<D>, const D: usize>(
         self,
