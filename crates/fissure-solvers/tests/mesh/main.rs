@@ -1,7 +1,6 @@
 //! Meshes of quadrilaterals under every solver.
 
-#![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
-#![allow(clippy::neg_cmp_op_on_partial_ord)]
+#![allow(missing_docs, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 mod bar;
 mod limits;

@@ -65,7 +65,9 @@ fn a_rigid_translation_stays_one() {
                 solver.step(&mut scene, end).unwrap();
             }
             assert!(scene.step() > 100);
-            assert!((momentum(&scene) - before).norm() <= 1e-11 * before.norm());
+            let lost = (momentum(&scene) - before).norm() / before.norm();
+            println!("{transfer:?}, {stress_update:?}: momentum {lost:.1e}");
+            assert!(lost <= 1e-11);
             for (v, s) in scene.bodies()[0]
                 .motion()
                 .velocity

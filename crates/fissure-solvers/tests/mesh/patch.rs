@@ -73,6 +73,7 @@ fn a_uniform_stress_is_in_equilibrium() {
             .iter()
             .map(strains)
             .fold(0.0, f64::max);
+        println!("strains of {size}: {:.1e} of them", most / size);
         assert!(most <= bound * size, "{size}: {most}");
         let stress = motion.stress[0];
         assert!(stress.norm() > 0.1 * size * 1e6);

@@ -89,7 +89,9 @@ fn explicit_steps() {
             assert!(one.time() * 2.0 > 0.25 * H);
             assert!(!lasts || one.energy().dissipated > 0.0);
             let apart = difference(&one, &other, (H, 2.0, 1e4));
-            assert!(apart <= 1e-9, "{transfer:?} {stress_update:?}: {apart}");
+            println!("explicit, {transfer:?}, {stress_update:?}: {apart:.1e}");
+            let bound = if lasts { 1e-11 } else { 1e-8 };
+            assert!(apart <= bound, "{transfer:?} {stress_update:?}: {apart}");
         }
     }
 }
@@ -152,7 +154,8 @@ fn quasi_static_steps() {
         assert!(energies[0].stored > 1.0);
         assert!((energies[0].stored / energies[1].stored - 1.0).abs() <= 1e-10);
         let apart = difference(&one, &other, (H, H, 1e4));
-        assert!(apart <= 1e-9, "{apart}");
+        println!("quasi-static, axisymmetric {axisymmetric}: {apart:.1e}");
+        assert!(apart <= 1e-11, "{apart}");
     }
 }
 
@@ -173,5 +176,6 @@ fn implicit_steps() {
     }
     assert!(one.energy().kinetic > 0.0);
     let apart = difference(&one, &other, (H, 1.0, 1e4));
-    assert!(apart <= 1e-9, "{apart}");
+    println!("implicit: {apart:.1e}");
+    assert!(apart <= 1e-11, "{apart}");
 }
