@@ -142,9 +142,9 @@ impl Search {
         element: u32,
     ) -> u32 {
         let (mut farthest, mut face) = (0.0, 0);
-        for k in 0..4 {
+        for (k, side) in sides.iter().enumerate() {
             let [from, to] = ends(corners, k).map(|node| &nodes[node as usize]);
-            let beyond = -sides[k] / (to - from).norm();
+            let beyond = -side / (to - from).norm();
             if beyond > farthest {
                 (farthest, face) = (beyond, k);
             }
