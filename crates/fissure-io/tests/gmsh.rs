@@ -153,11 +153,11 @@ fn a_bar_breaks_on_its_mesh() {
     );
 }
 
-/// Two squares side by side in version 2.2: the first clockwise, the second in two groups, and a centre of an arc.
+/// Two squares side by side in version 2.2: the first clockwise and against its group, the second in two, and a centre of an arc.
 const TWO: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
 $PhysicalNames\n3\n1 1 \"the left side\"\n2 2 \"all\"\n2 3 \"right half\"\n$EndPhysicalNames\n\
 $Nodes\n7\n10 0 0 1\n20 1 0 1\n30 1 1 1\n40 0 1 1\n50 2 0 1\n60 2 1 1\n70 9 9 9\n$EndNodes\n\
-$Elements\n5\n1 15 2 0 7 70\n2 1 2 1 1 10 40\n3 3 2 2 1 10 40 30 20\n4 3 2 2 2 20 50 60 30\n5 3 2 3 2 20 50 60 30\n$EndElements\n";
+$Elements\n5\n1 15 2 0 7 70\n2 1 2 1 1 10 40\n3 3 2 -2 1 10 40 30 20\n4 3 2 2 2 20 50 60 30\n5 3 2 3 2 20 50 60 30\n$EndElements\n";
 
 #[test]
 fn what_is_no_order_and_what_is_double() {
@@ -227,7 +227,7 @@ fn what_is_no_mesh_is_refused() {
     ));
     // A triangle, and quadrilaterals of second order.
     for kind in [2, 10, 16] {
-        let error = with("3 3 2 2 1 10", &format!("3 {kind} 2 2 1 10"));
+        let error = with("3 3 2 -2 1 10", &format!("3 {kind} 2 2 1 10"));
         assert!(matches!(error, GmshError::Element { element: 3, kind: k, .. } if k == kind));
     }
     let lines = "1 1 2 0 7 10 20\n$EndElements\n";
@@ -252,7 +252,7 @@ fn what_is_no_mesh_is_refused() {
         GmshError::NotPlane { node: 50, .. }
     ));
     assert!(matches!(
-        with("1 10 40", "1 10 70"),
+        with("2 1 2 1 1 10 40", "2 1 2 1 1 10 70"),
         GmshError::StrayNode { node: 70, .. }
     ));
     assert!(matches!(

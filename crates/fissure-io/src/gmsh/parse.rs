@@ -112,7 +112,7 @@ fn entities(path: &Path, lines: &[&str]) -> Result<Entities, GmshError> {
             }
             let mut groups = Vec::new();
             for _ in 0..words.number::<usize>("a number of physical groups")? {
-                groups.push(words.number("a tag")?);
+                groups.push(group(&mut words)?);
             }
             if dimension > 0 {
                 for _ in 0..words.number::<usize>("a number of bounding entities")? {
@@ -123,6 +123,11 @@ fn entities(path: &Path, lines: &[&str]) -> Result<Entities, GmshError> {
         }
     }
     Ok(entities)
+}
+
+/// The tag of a physical group: negative for an entity that runs against it.
+fn group(words: &mut Words<'_>) -> Result<i64, GmshError> {
+    Ok(words.number::<i64>("a tag")?.saturating_abs())
 }
 
 fn point(words: &mut Words<'_>) -> Result<[f64; 3], GmshError> {
@@ -232,7 +237,7 @@ fn cells_2(path: &Path, lines: &[&str]) -> Result<Vec<Cell>, GmshError> {
         let of_kind = words.number("a type of elements")?;
         let mut tags = Vec::new();
         for _ in 0..words.number::<usize>("a number of tags")? {
-            tags.push(words.number("a tag")?);
+            tags.push(group(&mut words)?);
         }
         // The first is the physical group, 0 for none.
         tags.truncate(1);

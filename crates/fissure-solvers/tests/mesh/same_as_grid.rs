@@ -5,8 +5,8 @@ use fissure_materials::{Decohesive, Isotropic, NeoHookean, Normal, softening};
 use fissure_particles::{Block, Spacing};
 use fissure_scene::{Constant, Hold, Plane, Scene, Solver};
 use fissure_solvers::{
-    Explicit, ExplicitSettings, Implicit, ImplicitSettings, QuasiStatic, QuasiStaticSettings,
-    StressUpdate, Transfer,
+    Averaging, Explicit, ExplicitSettings, Implicit, ImplicitSettings, QuasiStatic,
+    QuasiStaticSettings, StressUpdate, Transfer,
 };
 use nalgebra::{Vector2, vector};
 
@@ -131,8 +131,15 @@ fn held(axisymmetric: bool) -> Scene<2> {
 
 #[test]
 fn quasi_static_steps() {
-    for axisymmetric in [false, true] {
+    let one_strain = Averaging::Strain { hourglass: 0.1 };
+    for (axisymmetric, averaging) in [
+        (false, Averaging::None),
+        (true, Averaging::None),
+        (false, Averaging::Volume),
+        (false, one_strain),
+    ] {
         let settings = QuasiStaticSettings {
+            averaging,
             step: 0.25,
             tolerance: 1e-12,
             ..QuasiStaticSettings::default()
@@ -154,7 +161,10 @@ fn quasi_static_steps() {
         assert!(energies[0].stored > 1.0);
         assert!((energies[0].stored / energies[1].stored - 1.0).abs() <= 1e-10);
         let apart = difference(&one, &other, (H, H, 1e4));
-        println!("quasi-static, axisymmetric {axisymmetric}: {apart:.1e}");
+        println!(
+            "quasi-static, axisymmetric {axisymmetric}, {averaging:?}: {apart:.1e}, {:.3} J",
+            energies[0].stored
+        );
         assert!(apart <= 1e-11, "{apart}");
     }
 }
