@@ -60,6 +60,10 @@ impl<const D: usize> Patches<D> {
         around: &Around,
         part: &mut [u32],
     ) {
+        // A conforming mesh has more nodes than elements.
+        if part.len() >= MOST_NODES {
+            return self.halve(elements, middles, around, part);
+        }
         let reached = part.iter().flat_map(|&e| elements[e as usize]);
         let ring = reached.clone().flat_map(|node| around.node(node));
         let with_ring = distinct(ring.flat_map(|&e| elements[e as usize]));
@@ -75,6 +79,16 @@ impl<const D: usize> Patches<D> {
             self.windows.push(window.into());
             return;
         }
+        self.halve(elements, middles, around, part);
+    }
+
+    fn halve<const C: usize>(
+        &mut self,
+        elements: &[[u32; C]],
+        middles: &[SVector<f64, D>],
+        around: &Around,
+        part: &mut [u32],
+    ) {
         let middle = |e: &u32| &middles[*e as usize];
         let start = *middle(&part[0]);
         let low = part.iter().fold(start, |a, e| a.inf(middle(e)));

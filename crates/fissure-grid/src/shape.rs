@@ -42,9 +42,6 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     /// Whether [`affine_inverse`](Self::affine_inverse) is there: kernels that are not needed are then not compiled.
     const MOMENTS: bool = false;
 
-    /// Whether [`band_at`](Self::band_at) is there.
-    const BANDS: bool = false;
-
     /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3", "isoparametric".
     fn name(&self) -> &'static str;
 
@@ -109,6 +106,11 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     /// h/8 and h/4 it dissipates 1.31 and 1.44 times as much. The onset of softening in the splines wants less, 1.5 h and
     /// 1.82 h.
     fn band(&self, spacing: f64) -> Band;
+
+    /// Whether particles have bands of their own, [`band_at`](Self::band_at).
+    fn band_varies(&self) -> bool {
+        false
+    }
 
     /// The band at a place (m), where it is not everywhere that of [`band`](Self::band); None outside.
     fn band_at(&self, _x: &SVector<f64, D>) -> Option<Band> {

@@ -36,8 +36,8 @@ impl BandSource {
     }
 
     /// Whether particles have bands of their own.
-    pub(crate) fn varies<S: Shape<D>, const D: usize>(self) -> bool {
-        S::BANDS && self == Self::Discretisation
+    pub(crate) fn varies<S: Shape<D>, const D: usize>(self, shape: &S) -> bool {
+        self == Self::Discretisation && shape.band_varies()
     }
 
     /// Refuses a scene with a body whose law has no unique response on this band.

@@ -75,7 +75,11 @@ impl Element {
     fn newton(&self, target: &Vector2<f64>, start: Vector2<f64>) -> Vector2<f64> {
         let mut at = start;
         let mut left = target - self.offset(&at);
+        let rounding = f64::EPSILON.powi(2) * (self.a.norm_squared() + self.b.norm_squared());
         for _ in 0..STEPS {
+            if left.norm_squared() <= rounding {
+                break;
+            }
             let Some(inverse) = self.jacobian(&at).try_inverse() else {
                 break;
             };

@@ -21,7 +21,6 @@ pub struct Isoparametric(pub QuadMesh);
 impl Shape<2> for Isoparametric {
     type Stencil = QuadStencil;
     type Stencils = OneByOne<QuadStencil>;
-    const BANDS: bool = true;
 
     fn name(&self) -> &'static str {
         "isoparametric"
@@ -75,6 +74,10 @@ impl Shape<2> for Isoparametric {
     /// At least as wide as any element's; each particle's own is [`band_at`](Shape::band_at).
     fn band(&self, _spacing: f64) -> Band {
         self.0.widest_band()
+    }
+
+    fn band_varies(&self) -> bool {
+        matches!(self.0.widest_band(), Band::Uniform(_))
     }
 
     fn band_at(&self, x: &Vector2<f64>) -> Option<Band> {
