@@ -43,7 +43,12 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ),
     (
         "fissure-io",
-        &["fissure-tensor", "fissure-particles", "fissure-scene"],
+        &[
+            "fissure-tensor",
+            "fissure-grid",
+            "fissure-particles",
+            "fissure-scene",
+        ],
     ),
     (
         "fissure",

@@ -1,4 +1,4 @@
-//! Background grids of sparse tiles and the shape functions that live on them.
+//! Background grids of sparse tiles, meshes of quadrilaterals, and the shape functions that live on them.
 //!
 //! Four words carry the crate:
 //!
@@ -42,12 +42,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A [`QuadMesh`] takes the place of the grid's nodes where these are not to stand in rows: its elements fall into
+//! [`Patches`], which are to it what tiles are to a grid, and [`shape::Isoparametric`] makes the stencils.
+//!
 //! Space is `const D: usize`, 1 to 3 (the solvers use 2 and 3). Lengths are in metres. Nothing here depends on the
 //! order of a hash map or on the number of threads.
 
 mod axes;
 mod error;
 mod grid;
+mod patches;
+mod quads;
 mod separable;
 pub mod shape;
 mod stencil;
@@ -58,6 +63,8 @@ mod window;
 pub use error::GridError;
 pub use fissure_tensor::simd;
 pub use grid::Grid;
+pub use patches::Patches;
+pub use quads::{MeshError, QuadMesh, QuadStencil};
 pub use separable::Separable;
 pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};

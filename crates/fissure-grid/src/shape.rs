@@ -7,23 +7,28 @@
 //! | [`Cpdi`] | up to 4 | not the derivative of N | energy-fitting | the domain follows the deformation |
 //! | [`Bspline2`] | 3 | continuous | energy-fitting | needs no domain |
 //! | [`Bspline3`] | 4 | smooth | energy-fitting | needs no domain |
+//! | [`Isoparametric`] | 2 | jumps at faces | exact for cracks in parallelograms | of a [`QuadMesh`](crate::QuadMesh), in the plane |
 //!
 //! All have ΣN = 1, ΣN x_i = x and Σ∇N ⊗ x_i = 1. None is modified at the grid's faces.
+
+use std::sync::Arc;
 
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::simd::EIGHT;
-use crate::{Grid, Stencil, Stencils};
+use crate::{Grid, Patches, Stencil, Stencils, tile_of};
 
 mod bspline;
 mod cpdi;
 mod gimp;
+mod isoparametric;
 mod linear;
 
 pub use bspline::{Bspline2, Bspline3};
 pub use cpdi::{Corners, Cpdi};
 pub use gimp::Gimp;
+pub use isoparametric::Isoparametric;
 pub use linear::Linear;
 
 /// A shape function.
@@ -37,8 +42,25 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     /// Whether [`affine_inverse`](Self::affine_inverse) is there: kernels that are not needed are then not compiled.
     const MOMENTS: bool = false;
 
-    /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3".
+    /// Name used in output and input: "linear", "gimp", "cpdi", "bspline2", "bspline3", "isoparametric".
     fn name(&self) -> &'static str;
+
+    /// The patches of the mesh whose nodes these functions are of; `None` for those of a grid's nodes.
+    fn patches(&self) -> Option<&Arc<Patches<D>>> {
+        None
+    }
+
+    /// Whether the functions can be used with this grid; those of a mesh with its own alone.
+    fn goes_with(&self, _grid: &Grid<D>) -> bool {
+        true
+    }
+
+    /// The tile that a particle at `x` (m) is sorted by, or the number of its patch as the first coordinate. None if it is
+    /// outside.
+    #[inline]
+    fn home(&self, grid: &Grid<D>, x: &SVector<f64, D>) -> Option<[i32; D]> {
+        grid.cell(x).map(tile_of)
+    }
 
     /// The domain (half-edge vectors as columns, m) the particle has now, from the one it was seeded with and the upper
     /// left D×D block of its deformation gradient. Kept as it was unless the shape deforms it, as CPDI does.
@@ -84,6 +106,16 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     /// h/8 and h/4 it dissipates 1.31 and 1.44 times as much. The onset of softening in the splines wants less, 1.5 h and
     /// 1.82 h.
     fn band(&self, spacing: f64) -> Band;
+
+    /// Whether particles have bands of their own, [`band_at`](Self::band_at).
+    fn band_varies(&self) -> bool {
+        false
+    }
+
+    /// The band at a place (m), where it is not everywhere that of [`band`](Self::band); None outside.
+    fn band_at(&self, _x: &SVector<f64, D>) -> Option<Band> {
+        None
+    }
 
     /// Inverse of APIC's moment `Σ N (x_i − x)(x_i − x)ᵀ`, 1/m², where it is a multiple of the identity that does not
     /// depend on the place (splines: 4/h², 3/h²). `None` elsewhere: the velocity gradient is then the affine part, which

@@ -5,6 +5,7 @@
 //! | [`vtk`] | particles as `.vtu` frames under a `.pvd`, for ParaView | |
 //! | [`table`] | named columns with units as CSV, and reads them | |
 //! | [`checkpoint`] | named sections that come back bit for bit or are refused | |
+//! | [`gmsh`] | nothing: reads meshes of quadrilaterals and their named groups | |
 //! | `plot` | curves and coloured particles as PNG or SVG | `plots` |
 //! | `progress` | a bar on the terminal | `progress` |
 //!
@@ -47,6 +48,7 @@
 mod file;
 
 pub mod checkpoint;
+pub mod gmsh;
 #[cfg(feature = "plots")]
 pub mod plot;
 #[cfg(feature = "progress")]

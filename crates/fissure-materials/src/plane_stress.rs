@@ -81,7 +81,7 @@ impl<M: Material> PlaneStress<M> {
     fn check_relieved(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {
         let relief = self.relief(scale);
         self.0
-            .check_band(&widened(band, 1.0 / relief), scale)
+            .check_band(&band.scaled(1.0 / relief), scale)
             .map_err(|error| match error {
                 MaterialError::Band { law, width, limit } => MaterialError::Band {
                     law,
@@ -144,15 +144,6 @@ fn flattened(Tangent(mut plane): Tangent) -> Result<Tangent, MaterialError> {
         .is_finite()
         .then_some(plane)
         .ok_or(MaterialError::NotFinite { law: NAME })
-}
-
-/// The band with every width multiplied by `factor`.
-fn widened(band: &Band, factor: f64) -> Band {
-    match band {
-        Band::Uniform(width) => Band::Uniform(width * factor),
-        Band::Projected(edges) => Band::Projected(edges.map(|edge| edge * factor)),
-        Band::Section(edges) => Band::Section(edges.map(|edge| edge * factor)),
-    }
 }
 
 impl<M: Material> Material for PlaneStress<M> {

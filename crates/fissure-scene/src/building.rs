@@ -136,6 +136,35 @@ impl<const D: usize> Scene<D> {
         self.prescribe(name, selection, hold, speed)
     }
 
+    /// Prescribes velocities on every node that a point at one of these places (m) reaches: of a place
+    /// at a node that node alone, with linear or isoparametric functions. The places stay; material
+    /// that moves away from them is no longer held.
+    ///
+    /// # Errors
+    /// No place, a place or a direction that is refused, a name that is taken.
+    pub fn hold_places(
+        &mut self,
+        name: &str,
+        places: &[SVector<f64, D>],
+        hold: Hold<D>,
+        speed: impl TimeFunction + 'static,
+    ) -> Result<&mut Self, SceneError> {
+        if places.is_empty() {
+            return Err(SceneError::EmptySelection {
+                name: name.to_owned(),
+            });
+        }
+        let mut coordinates = places.iter().flat_map(|x| x.iter());
+        if let Some(&value) = coordinates.find(|c| !c.is_finite()) {
+            return Err(SceneError::Parameter {
+                parameter: "place of a hold",
+                value,
+                permitted: "finite",
+            });
+        }
+        self.prescribe(name, Selection::Places(places.to_vec()), hold, speed)
+    }
+
     /// Loads the selected particles of a body with a total force (N, as a function of time), shared
     /// in proportion to their volumes.
     ///

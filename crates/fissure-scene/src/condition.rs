@@ -68,6 +68,8 @@ pub enum Selection<const D: usize> {
         /// Half-edge vectors of their domains, m.
         half_edges: nalgebra::SMatrix<f64, D, D>,
     },
+    /// Places that stay where they are, whatever moves there: the nodes of a mesh, m.
+    Places(Vec<SVector<f64, D>>),
 }
 
 /// What a condition does.

@@ -51,7 +51,7 @@ impl<const D: usize> Scene<D> {
     pub fn save(&self) -> Result<Vec<Section>, PersistError> {
         let rigid = self.conditions.iter().map(|c| match &c.selection {
             Selection::Rigid { position, .. } => position.clone(),
-            Selection::Body { .. } => Vec::new(),
+            Selection::Body { .. } | Selection::Places(_) => Vec::new(),
         });
         let clock = Clock {
             time: self.time,

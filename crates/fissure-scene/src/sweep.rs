@@ -3,6 +3,7 @@
 use fissure_materials::{External, MaterialError, Matrix3, Tangent};
 use fissure_particles::{MotionSlices, MotionSlicesMut, ParticleId};
 use fissure_tensor::{Band, simd::Simd};
+use nalgebra::SVector;
 
 use crate::law::Constants;
 
@@ -158,7 +159,7 @@ pub trait WindowKernel<const D: usize> {
         0.0
     }
 
-    /// Whether [`external`](Self::external) is to be asked.
+    /// Whether [`external`](Self::external) and [`band`](Self::band) are to be asked.
     fn sets_external(&self) -> bool {
         false
     }
@@ -168,6 +169,11 @@ pub trait WindowKernel<const D: usize> {
     /// added after.
     fn external(&self, _run: &Run, _row: usize) -> External {
         External::default()
+    }
+
+    /// The band of a particle that the step found at this place, m, where it is not that of the sweep.
+    fn band(&self, _at: &SVector<f64, D>) -> Option<Band> {
+        None
     }
 }
 

@@ -35,6 +35,11 @@ impl BandSource {
         }
     }
 
+    /// Whether particles have bands of their own.
+    pub(crate) fn varies<S: Shape<D>, const D: usize>(self, shape: &S) -> bool {
+        self == Self::Discretisation && shape.band_varies()
+    }
+
     /// Refuses a scene with a body whose law has no unique response on this band.
     pub(crate) fn check<S: Shape<D>, const D: usize>(
         self,

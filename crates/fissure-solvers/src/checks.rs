@@ -1,5 +1,6 @@
 //! What is asked before a step, and the error of a particle off the grid.
 
+use fissure_grid::{Grid, Shape};
 use fissure_scene::{Scene, SolveError};
 use nalgebra::SVector;
 
@@ -25,6 +26,25 @@ pub(crate) fn check_until<const D: usize>(scene: &Scene<D>, until: f64) -> Resul
         value: until,
         permitted: "after the scene's time",
     })
+}
+
+/// Refuses what a mesh cannot do, and a mesh on another grid than its own.
+pub(crate) fn check_mesh<S: Shape<D>, const D: usize>(
+    grid: &Grid<D>,
+    shape: &S,
+    scene: &Scene<D>,
+) -> Result<(), SolveError> {
+    let refuse = |what| Err(SolveError::Unsupported { what });
+    if !shape.goes_with(grid) {
+        return refuse("a mesh on another grid than its own");
+    }
+    if shape.patches().is_some() && !scene.cracks().is_empty() {
+        return refuse("a crack on a mesh");
+    }
+    if shape.patches().is_some() && !scene.contacts().is_empty() {
+        return refuse("contact between bodies on a mesh");
+    }
+    Ok(())
 }
 
 /// Refuses numbers that are not finite, once, before the first step.

@@ -1,6 +1,6 @@
 //! Prescribed velocities, from particles to the nodes they reach.
 
-use fissure_grid::{Grid, Shape, Stencil, tile_of, window_node};
+use fissure_grid::{Grid, Shape, Stencil};
 use fissure_particles::ParticleId;
 use fissure_scene::{Body, Condition, ConditionKind, Hold, Scene, Selection, SolveError};
 use nalgebra::{SMatrix, SVector};
@@ -9,6 +9,8 @@ use crate::placement::Placement;
 
 /// A weight below this is round-off: the node is not reached.
 const REACHED: f64 = 1e-10;
+/// Half the edge of the domain of a point, in cells: from a node no other is reached.
+const POINT: f64 = 1e-11;
 /// A direction within this (sine) of the held ones adds nothing.
 const INDEPENDENT: f64 = 1e-6;
 
@@ -162,13 +164,12 @@ impl<const D: usize> Constraints<D> {
         condition: &Condition<D>,
     ) -> Result<(), SolveError> {
         let mut mark = |x: &SVector<f64, D>, domain: &SMatrix<f64, D, D>| -> Option<()> {
-            let tile = tile_of(grid.cell(x)?);
+            let tile = shape.home(grid, x)?;
             let stencil = shape.stencil(grid, tile, x, domain)?;
             stencil.visit_values(|entry, weight| {
                 if weight > REACHED {
-                    let node = window_node(tile, entry);
                     // A node whose tile is not held has no mass either.
-                    placement.each_field(node, |node| self.reached.push((node, index)));
+                    placement.each_field(tile, entry, |node| self.reached.push((node, index)));
                 }
             });
             Some(())
@@ -187,6 +188,12 @@ impl<const D: usize> Constraints<D> {
             } => {
                 for (row, x) in position.iter().enumerate() {
                     mark(x, half_edges).ok_or_else(|| outside(row as u32, x))?;
+                }
+            }
+            Selection::Places(places) => {
+                let point = SMatrix::from_diagonal_element(POINT * grid.spacing());
+                for (row, x) in places.iter().enumerate() {
+                    mark(x, &point).ok_or_else(|| outside(row as u32, x))?;
                 }
             }
             Selection::Body { body, .. } => {

@@ -1,6 +1,8 @@
 //! Where the particles are: sorted by tile, cut into runs, and the nodes they reach.
 
-use fissure_grid::{Grid, Tiles, tile_of};
+use std::sync::Arc;
+
+use fissure_grid::{Grid, Patches, Shape, Tiles, tile_of, window_node};
 use fissure_particles::sort_permutation;
 use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
@@ -33,12 +35,17 @@ pub(crate) struct Batch {
 /// Within a colour they are sorted by group (see `splits.rs`): windows of one tile but of two groups
 /// overlap too.
 ///
+/// On a mesh its patches stand for tiles, with colours of their own and a list of nodes each; all
+/// nodes of the mesh are held.
+///
 /// Sorting is stable, and particles keep their order until one leaves the window of the tile it
 /// was sorted by (explicit solver) or that tile (quasi-static solver).
 #[derive(Debug)]
 pub struct Placement<const D: usize> {
-    /// Tiles that hold nodes.
+    /// Tiles that hold nodes; none on a mesh.
     pub tiles: Tiles<D>,
+    /// The mesh, if that is what holds the nodes.
+    patches: Option<Arc<Patches<D>>>,
     /// Runs of each body.
     pub runs: Vec<Vec<Run>>,
     /// All runs in the order in which a pass takes them.
@@ -67,6 +74,7 @@ impl<const D: usize> Default for Placement<D> {
     fn default() -> Self {
         Self {
             tiles: Tiles::new(),
+            patches: None,
             runs: Vec::new(),
             batches: Vec::new(),
             splits: Splits::default(),
@@ -96,13 +104,13 @@ impl<const D: usize> Placement<D> {
 
     /// Notes whether a particle has left the tile of its run, after a step.
     #[cfg(feature = "implicit")]
-    pub(crate) fn note_moves(&mut self, grid: &Grid<D>, scene: &Scene<D>) {
+    pub(crate) fn note_moves<S: Shape<D>>(&mut self, grid: &Grid<D>, shape: &S, scene: &Scene<D>) {
         self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {
             let position = body.motion().position;
             runs.par_iter().with_min_len(16).any(|run| {
                 let home = Some(self.coordinates(run.window));
                 let particles = &position[run.start as usize..run.end as usize];
-                particles.iter().any(|x| grid.cell(x).map(tile_of) != home)
+                particles.iter().any(|x| shape.home(grid, x) != home)
             })
         });
     }
@@ -111,9 +119,18 @@ impl<const D: usize> Placement<D> {
     ///
     /// # Errors
     /// A particle outside the grid, or columns that do not fit one another.
-    pub fn update(&mut self, grid: &Grid<D>, scene: &mut Scene<D>) -> Result<(), SolveError> {
-        self.find_homes(grid, scene)?;
-        self.tiles.rebuild(self.homes.iter().copied());
+    pub fn update<S: Shape<D>>(
+        &mut self,
+        grid: &Grid<D>,
+        shape: &S,
+        scene: &mut Scene<D>,
+    ) -> Result<(), SolveError> {
+        self.find_homes(grid, shape, scene)?;
+        self.patches = shape.patches().cloned();
+        match self.patches {
+            Some(_) => self.tiles.rebuild(std::iter::empty()),
+            None => self.tiles.rebuild(self.homes.iter().copied()),
+        }
         self.runs.clear();
         let fields: Vec<u32> = (0..scene.bodies().len())
             .map(|body| scene.velocity_field(body) as u32)
@@ -128,7 +145,14 @@ impl<const D: usize> Placement<D> {
             let count = body.particles().len();
             let homes = &self.homes[first..first + count];
             keys.clear();
-            let tile_index = |home| self.tiles.find(home).unwrap_or(0) as u64;
+            let tile_index = |home: [i32; D]| match self.patches {
+                Some(_) => home[0] as u64,
+                None => self.tiles.find(home).unwrap_or(0) as u64,
+            };
+            let colour = |home: [i32; D]| match &self.patches {
+                Some(patches) => u64::from(patches.colour_of(home[0] as usize)),
+                None => colour(home),
+            };
             let plain = u64::from(self.groups.find(fields[index], &None));
             let patterns = self.patterns.get(first..first + count);
             let group = |row: usize| match patterns {
@@ -196,8 +220,19 @@ impl<const D: usize> Placement<D> {
     }
 
     /// The tile that every particle is sorted by: the one it is in, or the recalled one.
-    fn find_homes(&mut self, grid: &Grid<D>, scene: &Scene<D>) -> Result<(), SolveError> {
-        let recalled = std::mem::take(&mut self.recalled) && !self.cracks_have_moved(grid);
+    fn find_homes<S: Shape<D>>(
+        &mut self,
+        grid: &Grid<D>,
+        shape: &S,
+        scene: &Scene<D>,
+    ) -> Result<(), SolveError> {
+        let known = |home: &[i32; D]| {
+            let patches = shape.patches();
+            patches.is_none_or(|patches| (0..patches.len()).contains(&(home[0] as usize)))
+        };
+        let recalled = std::mem::take(&mut self.recalled)
+            && !self.cracks_have_moved(grid)
+            && self.homes.iter().all(known);
         if recalled && self.homes.len() == scene.particle_count() {
             return Ok(());
         }
@@ -207,8 +242,8 @@ impl<const D: usize> Placement<D> {
         let mut between = Between::new(grid, scene)?;
         for (body, owner) in scene.bodies().iter().enumerate() {
             for (index, x) in owner.motion().position.iter().enumerate() {
-                let cell = grid.cell(x).ok_or_else(|| outside(scene, body, index))?;
-                let home = tile_of(cell);
+                let home = shape.home(grid, x);
+                let home = home.ok_or_else(|| outside(scene, body, index))?;
                 self.homes.push(home);
                 if !scene.cracks().is_empty() {
                     self.patterns.push(between.pattern(home, x));
@@ -299,25 +334,39 @@ impl<const D: usize> Placement<D> {
 
     /// Coordinates of the tile of a window.
     pub(crate) fn coordinates(&self, window: u32) -> [i32; D] {
+        if self.patches.is_some() {
+            let mut coordinates = [0; D];
+            coordinates[0] = window as i32;
+            return coordinates;
+        }
         let tile = self.split_window(window).map_or(window, |split| split.tile);
         self.tiles.coordinates(tile as usize)
     }
 
     /// The nodes of a window.
     pub(crate) fn nodes(&self, window: u32) -> WindowNodes<'_, D> {
+        if let Some(patches) = &self.patches {
+            return WindowNodes::listed(patches.window(window as usize));
+        }
         match self.split_window(window) {
-            Some(split) => WindowNodes::of_split(&split.nodes),
+            Some(split) => WindowNodes::listed(&split.nodes),
             None => WindowNodes::of_tile(&self.tiles, window as usize),
         }
     }
 
     /// Number of nodes, those of further fields included.
     pub(crate) fn node_count(&self) -> usize {
-        self.tiles.node_count() + self.splits.origins.len()
+        match &self.patches {
+            Some(patches) => patches.nodes().len(),
+            None => self.tiles.node_count() + self.splits.origins.len(),
+        }
     }
 
     /// Position of a node, m.
     pub(crate) fn node_position(&self, grid: &Grid<D>, node: usize) -> SVector<f64, D> {
+        if let Some(patches) = &self.patches {
+            return patches.nodes()[node];
+        }
         let further = node.checked_sub(self.tiles.node_count());
         let origin = further.map_or(node, |extra| self.splits.origins[extra] as usize);
         self.tiles.node_position(grid, origin)
@@ -342,10 +391,13 @@ impl<const D: usize> Placement<D> {
         Some(tile * Tiles::<D>::NODES + local)
     }
 
-    /// Calls `visit` with the node of a grid index, if its tile is held, and those of its further
-    /// fields.
-    pub(crate) fn each_field(&self, index: [i32; D], mut visit: impl FnMut(usize)) {
-        let Some(node) = self.node(index) else {
+    /// Calls `visit` with the node of a window entry of a tile, if that is held, and those of its
+    /// further fields.
+    pub(crate) fn each_field(&self, tile: [i32; D], entry: usize, mut visit: impl FnMut(usize)) {
+        if let Some(patches) = &self.patches {
+            return visit(patches.window(tile[0] as usize)[entry] as usize);
+        }
+        let Some(node) = self.node(window_node(tile, entry)) else {
             return;
         };
         visit(node);

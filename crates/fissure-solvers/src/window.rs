@@ -9,8 +9,8 @@ pub(crate) struct WindowNodes<'a, const D: usize> {
     /// First node of each of the tiles around.
     bases: [usize; 27],
     map: &'static [(u8, u8)],
-    /// The node of every entry, where some are split.
-    split: Option<&'a [u32]>,
+    /// The node of every entry, where some are split or they do not stand in rows.
+    listed: Option<&'a [u32]>,
 }
 
 impl<'a, const D: usize> WindowNodes<'a, D> {
@@ -23,23 +23,23 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
         Self {
             bases,
             map: window_map::<D>(),
-            split: None,
+            listed: None,
         }
     }
 
     /// The window of these nodes.
-    pub(crate) fn of_split(nodes: &'a [u32]) -> Self {
+    pub(crate) fn listed(nodes: &'a [u32]) -> Self {
         Self {
             bases: [0; 27],
             map: window_map::<D>(),
-            split: Some(nodes),
+            listed: Some(nodes),
         }
     }
 
     /// Node of a window entry.
     #[inline]
     pub(crate) fn node(&self, entry: usize) -> usize {
-        if let Some(nodes) = self.split {
+        if let Some(nodes) = self.listed {
             return nodes[entry] as usize;
         }
         let (neighbour, local) = self.map[entry];
@@ -49,7 +49,7 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
     /// Calls `row(entry, node, count)` for each stretch of entries whose nodes stand side by side.
     #[inline(always)]
     fn rows(&self, mut row: impl FnMut(usize, usize, usize)) {
-        if let Some(nodes) = self.split {
+        if let Some(nodes) = self.listed {
             for (entry, &node) in nodes.iter().enumerate() {
                 row(entry, node as usize, 1);
             }

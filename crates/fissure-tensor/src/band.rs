@@ -14,6 +14,9 @@ pub enum Band {
     /// `a|n_x| + b|n_y| + c|n_z|`: the mean number of cells a crack crosses, times their size.
     /// With `a = b = c = h` this is the band of linear shape functions on cells `h` wide.
     Projected([f64; 3]),
+    /// `|n·a| + |n·b| + c|n_z|`: the same for cells that are parallelograms of the edges `a` and `b` in the plane;
+    /// `c`, for cracks that the plane does not show, is the edge of a square of their area.
+    Skewed([[f64; 2]; 2]),
     /// Volume over central section of a box with these edges, `V_p / A_c` of Nairn 2017, eq. 11.
     /// An edge of zero length stands for a dimension that the crack does not see (plane problems).
     Section([f64; 3]),
@@ -27,6 +30,10 @@ impl Band {
             Self::Projected(edges) => {
                 edges[0] * normal.x.abs() + edges[1] * normal.y.abs() + edges[2] * normal.z.abs()
             }
+            Self::Skewed([a, b]) => {
+                let along = |edge: &[f64; 2]| (edge[0] * normal.x + edge[1] * normal.y).abs();
+                along(a) + along(b) + out_of_plane(a, b) * normal.z.abs()
+            }
             Self::Section(edges) => section_width(edges, normal),
         }
     }
@@ -37,9 +44,24 @@ impl Band {
             Self::Uniform(width) => *width,
             // Cauchy-Schwarz, attained by the normal parallel to the edge vector.
             Self::Projected(e) => (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]).sqrt(),
+            // The same of the longer diagonal, whichever signs the two terms have, and the edge out of the plane.
+            Self::Skewed([a, b]) => {
+                let diagonal = |s: f64| (a[0] + s * b[0]).hypot(a[1] + s * b[1]);
+                diagonal(1.0).max(diagonal(-1.0)).hypot(out_of_plane(a, b))
+            }
             // The smallest central section of a box is the one across its longest edge: by Vaaler's
             // theorem (1979) `V/A ≤ √(Σ edge_i² n_i²)`, which the longest edge bounds and attains.
             Self::Section(e) => e[0].max(e[1]).max(e[2]),
+        }
+    }
+
+    /// The band with every width multiplied by `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::Uniform(width) => Self::Uniform(width * factor),
+            Self::Projected(edges) => Self::Projected(edges.map(|edge| edge * factor)),
+            Self::Skewed(edges) => Self::Skewed(edges.map(|edge| edge.map(|c| c * factor))),
+            Self::Section(edges) => Self::Section(edges.map(|edge| edge * factor)),
         }
     }
 
@@ -47,6 +69,11 @@ impl Band {
     pub fn cube(width: f64) -> Self {
         Self::Uniform(width)
     }
+}
+
+/// Edge of the square that has the area of a parallelogram.
+fn out_of_plane(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]).abs().sqrt()
 }
 
 /// `V/A` of the central section of a box: `1/f(0)` with `f` the density of the sum of three

@@ -92,7 +92,8 @@ proptest! {
         let n = if plane { Vector3::new(n.x, n.y, 0.0).try_normalize(1e-3) } else { Some(n) };
         prop_assume!(n.is_some());
         let n = n.unwrap();
-        for band in [Band::Section(e), Band::Projected(e), Band::Uniform(e[0])] {
+        let skewed = Band::Skewed([[e[0], 0.3 * e[1]], [-0.8 * e[2], e[1]]]);
+        for band in [Band::Section(e), Band::Projected(e), Band::Uniform(e[0]), skewed] {
             prop_assert!(band.width(&n) <= band.max_width() * (1.0 + 1e-15));
             prop_assert!(band.width(&n) > 0.0);
             prop_assert!((band.width(&-n) - band.width(&n)).abs() <= 0.0);
@@ -110,6 +111,18 @@ proptest! {
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         let best = axes.iter().map(|n| section.width(n)).fold(0.0, f64::max);
         prop_assert!(best == section.max_width());
+    }
+
+    /// The band of squares, turned, is that of squares along the axes for the normal turned back.
+    #[test]
+    fn skewed_bands_turn_with_their_cells(h in 0.1..2.0_f64, angle in -3.2..3.2_f64, n in direction()) {
+        let (sin, cos) = angle.sin_cos();
+        let turned = Band::Skewed([[h * cos, h * sin], [-h * sin, h * cos]]);
+        let back = Vector3::new(cos * n.x + sin * n.y, cos * n.y - sin * n.x, n.z);
+        let straight = Band::Projected([h; 3]);
+        prop_assert!((turned.width(&n) - straight.width(&back)).abs() <= 4e-15);
+        prop_assert!((turned.max_width() - straight.max_width()).abs() <= 4e-15);
+        prop_assert!((turned.scaled(3.0).width(&n) - 3.0 * turned.width(&n)).abs() <= 4e-15);
     }
 
     #[test]

@@ -11,6 +11,12 @@ pub enum Error {
     /// A grid refused its bounds.
     #[error(transparent)]
     Grid(#[from] fissure_grid::GridError),
+    /// A mesh refused its nodes or elements.
+    #[error(transparent)]
+    Mesh(#[from] fissure_grid::MeshError),
+    /// A file of gmsh was refused.
+    #[error(transparent)]
+    Gmsh(#[from] fissure_io::gmsh::GmshError),
     /// A region refused its shape.
     #[error(transparent)]
     Region(#[from] fissure_particles::RegionError),

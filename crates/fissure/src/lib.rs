@@ -56,8 +56,9 @@ pub mod prelude {
         EnergyBalance, EnergyHistory, FailedZone, LoadCurve, LoadDisplacement, Record,
         SectionForce, curve_error, fit_slope, fracture, section_force, state_hash,
     };
-    pub use fissure_grid::{Grid, Shape, shape};
+    pub use fissure_grid::{Grid, QuadMesh, Shape, shape};
     pub use fissure_io::checkpoint::{AutoCheckpoint, Checkpoint};
+    pub use fissure_io::gmsh::GmshMesh;
     #[cfg(feature = "progress")]
     pub use fissure_io::progress::Progress;
     pub use fissure_io::table::Table;

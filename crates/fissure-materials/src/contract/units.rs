@@ -1,7 +1,5 @@
 //! P19: the result does not depend on the units.
 
-use fissure_tensor::Band;
-
 use super::{gauge::Gauge, runner::Property, subject::Subject};
 use crate::{Material, MaterialError, Response, Scale};
 
@@ -42,7 +40,7 @@ pub(super) fn units<M: Material>() -> Property<M> {
                 toughness: factor,
                 ..Scale::default()
             };
-            let band = scaled(&case.band, factor);
+            let band = case.band.scaled(factor);
             let other = subject.drive(&gradients, &band, &length_unit)?;
             gauge.require(
                 same(&base, &other, 1.0),
@@ -70,12 +68,4 @@ fn same<S>(base: &[Response<S>], other: &[Response<S>], factor: f64) -> bool {
             && a.stored * factor == b.stored
             && a.dissipated * factor == b.dissipated
     })
-}
-
-fn scaled(band: &Band, factor: f64) -> Band {
-    match *band {
-        Band::Uniform(width) => Band::Uniform(width * factor),
-        Band::Projected(edges) => Band::Projected(edges.map(|e| e * factor)),
-        Band::Section(edges) => Band::Section(edges.map(|e| e * factor)),
-    }
 }

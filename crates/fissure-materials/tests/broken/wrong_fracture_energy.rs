@@ -10,11 +10,7 @@ pub struct WrongFractureEnergy(pub Decohesive);
 
 impl WrongFractureEnergy {
     fn narrowed(increment: &Increment) -> Increment {
-        let band = match increment.band {
-            Band::Uniform(width) => Band::Uniform(0.99 * width),
-            Band::Projected(edges) => Band::Projected(edges.map(|edge| 0.99 * edge)),
-            Band::Section(edges) => Band::Section(edges.map(|edge| 0.99 * edge)),
-        };
+        let band = increment.band.scaled(0.99);
         Increment { band, ..*increment }
     }
 }

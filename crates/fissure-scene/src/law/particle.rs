@@ -1,7 +1,7 @@
 //! The law asked for one particle, and artificial viscosity.
 
 use fissure_materials::{External, Increment, Material, MaterialError, Matrix3, Response};
-use fissure_tensor::Sym;
+use fissure_tensor::{Band, Sym};
 
 use super::windows::{Part, Sweep};
 use crate::states::Fresh;
@@ -15,6 +15,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
         row: usize,
         index: usize,
         external: External,
+        band: Band,
         part: &mut Part<'_, M, D>,
         fresh: &mut Fresh<M::State>,
     ) -> Result<SweepTotals, SweepFailure> {
@@ -23,7 +24,7 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
             f_old: part.old.deformation_gradient[row],
             f_new: part.new.deformation_gradient[row],
             dt: self.settings.dt,
-            band: self.settings.band,
+            band,
             external,
         };
         let slot = part.states.slot(row);

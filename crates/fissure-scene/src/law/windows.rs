@@ -149,13 +149,13 @@ impl<M: Material, const D: usize> Sweep<'_, M, D> {
             }
             let index = first + row;
             let volume = self.constants.volume[index];
-            let set = if asked {
-                kernel.external(run, row)
-            } else {
-                External::default()
-            };
-            let scale = scale_of(self.constants.scale, index);
-            match self.particle(row, index, External { scale, ..set }, part, fresh) {
+            let (mut external, mut band) = (External::default(), self.settings.band);
+            if asked {
+                external = kernel.external(run, row);
+                band = kernel.band(&part.old.position[row]).unwrap_or(band);
+            }
+            external.scale = scale_of(self.constants.scale, index);
+            match self.particle(row, index, external, band, part, fresh) {
                 Ok(one) => {
                     totals.stored += one.stored * volume;
                     totals.dissipated += one.dissipated * volume;

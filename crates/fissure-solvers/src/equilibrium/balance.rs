@@ -39,6 +39,7 @@ pub(crate) fn strain<S: Shape<D>, const D: usize>(
                 .map(|averages| averages.factors[index].as_slice()),
             increments: links.increments.get(index).map(Vec::as_slice),
             half_edges: *body.half_edges(),
+            banded: band.varies(transfers.shape),
             dt,
         };
         let sweep = SweepSettings {

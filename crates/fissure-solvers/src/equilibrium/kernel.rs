@@ -3,6 +3,7 @@
 use fissure_grid::{Shape, Stencil};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
+use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use super::links::Increment;
@@ -19,6 +20,8 @@ pub(crate) struct DisplacementKernel<'a, S, const D: usize> {
     /// What displaces the particles, one by one, where that is not what their shape functions say.
     pub increments: Option<&'a [Increment<D>]>,
     pub half_edges: SMatrix<f64, D, D>,
+    /// Whether particles have bands of their own.
+    pub banded: bool,
     pub dt: f64,
 }
 
@@ -58,6 +61,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             increments,
             half_edges,
             dt,
+            ..
         } = self.step;
         for row in 0..old.len() {
             let failure = KernelFailure {
@@ -109,5 +113,13 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             }
         }
         Ok(())
+    }
+
+    fn sets_external(&self) -> bool {
+        self.step.banded
+    }
+
+    fn band(&self, at: &SVector<f64, D>) -> Option<Band> {
+        self.step.transfers.shape.band_at(at)
     }
 }

@@ -6,7 +6,8 @@ use fissure_grid::simd::{EIGHT, Lanes, SimdTask, write_columns};
 use fissure_grid::{FIELD, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Run, RunConstants, RunKernel, WindowKernel};
-use nalgebra::SMatrix;
+use fissure_tensor::Band;
+use nalgebra::{SMatrix, SVector};
 
 use super::particle::{StoredStrain, volumes};
 use super::settings::Transfer;
@@ -52,6 +53,8 @@ pub(crate) struct StepKernel<'a, S, const D: usize> {
     /// `F ← (1 + Δt L) F`. With the other one a spinning body grows or shrinks.
     pub backward: bool,
     pub giving: Giving,
+    /// Whether particles have bands of their own.
+    pub banded: bool,
     /// Set when a particle has left its tile's window, so that it could give nothing.
     pub strayed: &'a AtomicBool,
 }
@@ -199,6 +202,14 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             });
         }
         std::mem::take(&mut self.work).iter().sum()
+    }
+
+    fn sets_external(&self) -> bool {
+        self.pass.banded
+    }
+
+    fn band(&self, at: &SVector<f64, D>) -> Option<Band> {
+        self.pass.transfers.shape.band_at(at)
     }
 }
 

@@ -290,6 +290,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             strains: pass.strains,
             backward: self.settings.stress_update == StressUpdate::First,
             giving: pass.giving,
+            banded: self.settings.band.varies(shape),
             strayed: self.strayed,
         }
     }

@@ -12,7 +12,7 @@ use super::grid_update::Nodes;
 use super::kernels::Giving;
 use super::phases::{Pass, Phases, mean_particle_mass, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
-use crate::checks::{check_columns, check_until};
+use crate::checks::{check_columns, check_mesh, check_until};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::nodes::{MASSIVE, NodeSums, vector};
@@ -100,6 +100,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
                 self.fastest = None;
             }
             check_columns(scene)?;
+            check_mesh(&self.grid, &self.shape, scene)?;
             self.mean_particle_mass = mean_particle_mass(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
             if self.settings.transfer == Transfer::Apic {
@@ -108,7 +109,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
                 }
             }
         }
-        self.placement.update(&self.grid, scene)?;
+        self.placement.update(&self.grid, &self.shape, scene)?;
         if self.fastest.is_none() {
             let waves = scene.bodies().iter().map(Body::wave_speed);
             let (_, fastest) = kinetic_energy_and_speed(scene);

@@ -11,7 +11,7 @@ use super::newton::{Attempt, Balanced};
 use super::particles::Carried;
 use super::scheme::{Scheme, Start};
 use super::settings::ImplicitSettings;
-use crate::checks::{check_columns, check_until, outside};
+use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
@@ -90,6 +90,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
                 self.pace.next = self.settings.step;
             }
             check_columns(scene)?;
+            check_mesh(&self.grid, &self.shape, scene)?;
             if !scene.contacts().is_empty() {
                 return Err(SolveError::Unsupported {
                     what: "contact between bodies in an implicit step",
@@ -104,7 +105,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
             self.carried.align(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
-        self.placement.update(&self.grid, scene)?;
+        self.placement.update(&self.grid, &self.shape, scene)?;
         self.carried.align(scene);
         Ok(())
     }
@@ -212,7 +213,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         for body in scene.bodies_mut() {
             body.commit()?;
         }
-        self.placement.note_moves(&self.grid, scene);
+        self.placement.note_moves(&self.grid, &self.shape, scene);
         report.energy.kinetic_particles = scene.bodies().iter().map(Body::kinetic_energy).sum();
         scene.record(&report);
         self.placement.accept(scene);

@@ -1,6 +1,6 @@
 //! Systems of elastic grids: small enough for dense algebra, or large enough to show growth.
 
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::*;
 
@@ -321,6 +321,94 @@ fn an_iteration_says_why_it_stopped() {
         (outcome.stop, outcome.iterations, x),
         (Stop::Converged, 0, vec![0.0; 2])
     );
+}
+
+/// Restarts need more products and come to the same; a start at the solution needs none.
+#[test]
+fn restarts_come_to_the_same_solution() {
+    let (mut matrix, _) = elastic_with([12, 12], 0.3);
+    let b = right(matrix.size());
+    let exact = dense(&matrix)
+        .lu()
+        .solve(&DVector::from_column_slice(&b))
+        .unwrap();
+    let mut counts = Vec::new();
+    for restart in [10, 40, 1000] {
+        let settings = KrylovSettings {
+            tolerance: 1e-10,
+            restart,
+            ..KrylovSettings::default()
+        };
+        let mut x = vec![0.0; b.len()];
+        let Ok(outcome) = gmres(&mut matrix, &Identity, &b, &mut x, &settings);
+        assert!(outcome.converged(), "{outcome:?}");
+        assert!(error(&x, exact.as_slice()) <= 1e-7, "{outcome:?}");
+        counts.push(outcome.iterations);
+        let Ok(again) = gmres(&mut matrix, &Identity, &b, &mut x, &settings);
+        assert_eq!((again.stop, again.iterations), (Stop::Converged, 0));
+    }
+    // The first restarts several times, the last not at all.
+    assert!(
+        counts[0] > counts[1] && counts[1] > counts[2] && counts[2] <= b.len(),
+        "{counts:?}"
+    );
+}
+
+/// A matrix with rounding of its own, as differences of residuals have: every product is off by a share of its size.
+struct Rough<'a>(&'a mut BlockMatrix<2>, f64, u32);
+
+impl Operator for Rough<'_> {
+    type Error = std::convert::Infallible;
+
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) -> Result<(), Self::Error> {
+        self.0.apply(x, y)?;
+        let size = crate::linear::norm(y);
+        for (k, y) in y.iter_mut().enumerate() {
+            self.2 += 1;
+            *y += self.1 * size * (f64::from(self.2) * 0.7 + k as f64).sin();
+        }
+        Ok(())
+    }
+}
+
+/// What the recursion believes is not taken for the residual: with a product that is off the true one decides.
+#[test]
+fn a_rough_operator_is_not_taken_at_its_recursions_word() {
+    let (mut matrix, _) = elastic([12, 12]);
+    let b = right(matrix.size());
+    let settings = KrylovSettings {
+        tolerance: 1e-9,
+        restart: 400,
+        ..KrylovSettings::default()
+    };
+    for conjugate in [false, true] {
+        let mut x = vec![0.0; b.len()];
+        let mut rough = Rough(&mut matrix, 1e-6, 0);
+        let Ok(outcome) = if conjugate {
+            conjugate_gradients(&mut rough, &Identity, &b, &mut x, &settings)
+        } else {
+            gmres(&mut rough, &Identity, &b, &mut x, &settings)
+        };
+        assert!(!outcome.converged(), "{outcome:?}");
+        assert!(outcome.residual > settings.tolerance, "{outcome:?}");
+        // The recursion of GMRES believed otherwise.
+        assert!(
+            conjugate || outcome.estimate <= settings.tolerance,
+            "{outcome:?}"
+        );
+        let mut product = vec![0.0; b.len()];
+        matrix.multiply(&x, &mut product);
+        // As good as its products are, and reported as good as it is.
+        let miss = error(&product, &b);
+        assert!(
+            miss <= 1e-3 && miss <= 2.0 * outcome.residual + 1e-5,
+            "{miss} {outcome:?}"
+        );
+    }
 }
 
 /// A chain has no entries beyond its pattern: the incomplete factorisation is complete.

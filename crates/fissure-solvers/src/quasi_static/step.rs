@@ -12,7 +12,7 @@ use super::embedded::{Embedded, EmbeddedCrack, EmbeddedJump};
 use super::faces::Faces;
 use super::settings::{Averaging, QuasiStaticSettings};
 use super::trial::Equilibrium;
-use crate::checks::{check_columns, check_until, outside};
+use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{carried, refine};
 use crate::equilibrium::balance::strain;
@@ -168,6 +168,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 self.pace.next = self.settings.step;
             }
             check_columns(scene)?;
+            check_mesh(&self.grid, &self.shape, scene)?;
             if !scene.contacts().is_empty() {
                 return Err(SolveError::Unsupported {
                     what: "contact between bodies in a quasi-static step",
@@ -176,7 +177,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             self.check_kinematics(scene)?;
             self.settings.band.check(&self.shape, &self.grid, scene)?;
         }
-        self.placement.update(&self.grid, scene)
+        self.placement.update(&self.grid, &self.shape, scene)
     }
 
     fn check_kinematics(&self, scene: &Scene<D>) -> Result<(), SolveError> {
@@ -230,7 +231,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         for body in scene.bodies_mut() {
             body.commit()?;
         }
-        self.placement.note_moves(&self.grid, scene);
+        self.placement.note_moves(&self.grid, &self.shape, scene);
         self.has_stepped = true;
         self.force_scale = equilibrium.force_scale;
         let load_step = equilibrium.load_step;

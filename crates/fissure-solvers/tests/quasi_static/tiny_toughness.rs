@@ -32,7 +32,7 @@ fn toughness(times: f64) -> f64 {
     0.5 * H * STRENGTH * STRENGTH / modulus / times
 }
 
-fn bar<M: fissure_materials::Material>(law: M) -> Result<Scene<2>, SceneError> {
+fn bar<M: fissure_materials::Material>(law: M, speed: f64) -> Result<Scene<2>, SceneError> {
     let spacing = Spacing(0.5 * H);
     let mut scene = Scene::plane(Plane::Strain { thickness: SIDE });
     scene.fill(
@@ -49,7 +49,7 @@ fn bar<M: fissure_materials::Material>(law: M) -> Result<Scene<2>, SceneError> {
     };
     scene.set_scale("bar", |x| (0.1..0.1 + H).contains(&x[0]), weak)?;
     let along = Hold::Component(vector![1.0, 0.0]);
-    for (name, from, speed) in [("left", -H, 0.0), ("right", LENGTH, 0.05)] {
+    for (name, from, speed) in [("left", -H, 0.0), ("right", LENGTH, speed)] {
         let grip = Block::new([from, 0.0], [from + H, SIDE]);
         scene.rigid(name, &grip, &spacing, along, Velocity(move |_| speed))?;
     }
@@ -64,7 +64,7 @@ fn solver() -> Explicit<shape::Linear, 2> {
 #[test]
 fn x3_without_toughness_enough_a_cell_is_refused_before_the_first_step() {
     for times in [1.01, 10.0, 1e3] {
-        let mut scene = bar(law(toughness(times))).unwrap();
+        let mut scene = bar(law(toughness(times)), 0.05).unwrap();
         let refused = solver().step(&mut scene, 1.0);
         assert!(
             matches!(refused, Err(SolveError::Band { .. })),
@@ -72,19 +72,21 @@ fn x3_without_toughness_enough_a_cell_is_refused_before_the_first_step() {
         );
         assert_eq!(scene.step(), 0);
     }
-    assert!(bar(law(0.0)).is_err());
+    assert!(bar(law(0.0), 0.05).is_err());
 }
 
 /// With the strength that the cell allows the bar breaks at that strength; its crack takes its toughness, and never more than
 /// was put in.
 #[test]
 fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
-    for times in [1.01, 10.0] {
-        let mut scene = bar(LoweredStrength(law(toughness(times)))).unwrap();
+    for times in [1.01, 10.0, 1e3] {
+        // As slow against the strength for all: a sudden start alone is a stress of ρ c v.
+        let speed = 0.05 / f64::sqrt(times);
+        let mut scene = bar(LoweredStrength(law(toughness(times))), speed).unwrap();
         let mut solver = solver();
         let strength = 0.9 * STRENGTH * (0.99 / times).sqrt();
         let strain = strength / law(1.0).elastic.young;
-        let end = 3.0 * strain * LENGTH / 0.05;
+        let end = 3.0 * strain * LENGTH / speed;
         let mut peak: f64 = 0.0;
         while scene.time() < end {
             let report = solver.step(&mut scene, end).unwrap();
@@ -97,6 +99,6 @@ fn x3_a_lowered_strength_breaks_the_bar_with_the_energy_there_is() {
         // Waves from the crack may open its neighbours.
         assert!((0.99..=4.0).contains(&spent), "{times}: {spent}");
         let peak = peak / strength;
-        assert!((0.8..=1.3).contains(&peak), "{times}: {peak}");
+        assert!((0.95..=1.05).contains(&peak), "{times}: {peak}");
     }
 }
