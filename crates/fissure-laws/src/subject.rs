@@ -2,7 +2,7 @@
 
 use fissure_materials::contract::{Contract, Summary, Violation};
 use fissure_materials::*;
-use fissure_tensor::{Matrix3, Tangent};
+use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 use nalgebra::Matrix6;
 
 use crate::law::{Law, Space};
@@ -27,6 +27,8 @@ pub(super) trait Subject: Send + Sync {
     fn fracture(&self) -> Option<Fracture>;
     /// Widest band, m; may be infinite.
     fn band_limit(&self) -> f64;
+    /// Whether stress along a plane has its part in whether it opens.
+    fn sees_along(&self) -> bool;
     fn cracks(&self, state: &State<Self>) -> Vec<Crack>;
     fn irreversible(&self, state: &State<Self>) -> Vec<f64>;
     fn contract(&self, contract: &Contract) -> Result<Summary, Violation>;
@@ -117,6 +119,9 @@ impl<M: Material> Subject for Plain<M> {
     fn band_limit(&self) -> f64 {
         self.band_limit
     }
+    fn sees_along(&self) -> bool {
+        false
+    }
     fn cracks(&self, _: &M::State) -> Vec<Crack> {
         Vec::new()
     }
@@ -152,6 +157,9 @@ macro_rules! cracking_subject {
             }
             fn band_limit(&self) -> f64 {
                 self.said().band_limit
+            }
+            fn sees_along(&self) -> bool {
+                sees_along(&self.0)
             }
             fn cracks(&self, state: &State<Self>) -> Vec<Crack> {
                 self.0.cracks(state)
@@ -214,6 +222,16 @@ fn fracture<M: Cracking>(law: &M) -> Fracture {
         opening: critical.min(20.0 * toughness / strength),
         band_limit: law.band_limit(&scale),
     }
+}
+
+fn sees_along<M: Cracking>(law: &M) -> bool {
+    let scale = Scale::default();
+    let strength = law.strength(&scale);
+    let of = |along: f64| {
+        let stress = Sym::diagonal(0.5 * strength, along, 0.0);
+        law.failure_along(&stress, &Vector3::x(), &scale)
+    };
+    of(0.0) != of(-0.5 * strength)
 }
 
 /// Largest entry of the virgin tangent, Pa.

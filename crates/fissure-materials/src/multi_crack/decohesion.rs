@@ -58,11 +58,6 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
-    /// Whether planes of this kind can be returned together with others.
-    fn several(&self) -> bool {
-        true
-    }
-
     /// Whether a plane across a sheet asks for nothing out of the sheet, neither stress nor stiffness, so
     /// that plane stress has a closed form.
     fn has_sheet_form(&self) -> bool {

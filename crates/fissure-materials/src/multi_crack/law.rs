@@ -25,11 +25,6 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
         self.decohesion.check()?;
-        if matches!(self.planes, Planes::Multiple(_)) {
-            let valid = N < 2 || self.decohesion.several();
-            let rule = "1 for this decohesion";
-            check_parameter(NAME, "number of planes", N as f64, valid, rule)?;
-        }
         if let Planes::Multiple(Some(angle)) = self.planes {
             let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
             check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;

@@ -229,7 +229,7 @@ fn any_step_of_geological_flow_ends() {
     for friction in [None, Some(0.6)] {
         let one = fuzz(&geological::<1>(friction, Planes::Fixed), UPDATES, 5);
         println!("geological {friction:?}: {one:?}");
-        let several = geological::<6>(friction, Planes::Multiple(None));
-        assert!(several.check().is_err());
+        let several = fuzz(&geological::<6>(friction, Planes::Multiple(None)), 300, 6);
+        println!("several {several:?}");
     }
 }
