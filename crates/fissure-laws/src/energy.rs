@@ -2,9 +2,9 @@
 
 use fissure_materials::contract::Random;
 use fissure_materials::*;
-use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
+use fissure_tensor::{Band, Matrix3, Sym, Vector3};
 
-use super::subject::{Fracture, State, Subject, virgin_tangent};
+use super::subject::{Fracture, State, Subject, virgin_compliance};
 
 /// Largest `|Σ dissipated × band / G − 1|` over random paths of loading, unloading and contact
 /// along one normal, in 1 to 1000 steps, with bands up to 0.99 of the limit. NaN for a law that
@@ -88,10 +88,8 @@ impl<'a, S: Subject> UniaxialStress<'a, S> {
         let mut increment = Increment::to(Matrix3::identity());
         increment.band = Band::Uniform(width);
         let across = Sym::dyad(&normal);
-        let inverse = virgin_tangent(subject.law()).0.try_inverse();
-        let compliance = inverse.map_or(Sym::ZERO * f64::NAN, |inverse| {
-            Tangent(inverse).apply(&across)
-        });
+        let compliance = virgin_compliance(subject.law());
+        let compliance = compliance.map_or(Sym::ZERO * f64::NAN, |inverse| inverse.apply(&across));
         Self {
             subject,
             fracture,
@@ -159,8 +157,11 @@ impl<'a, S: Subject> UniaxialStress<'a, S> {
         let strain = self.compliance * traction + self.across * (opening / self.width);
         let f = Matrix3::identity() + strain.to_matrix();
         let increment = self.increment.with_end(f);
-        let response = self.subject.law().update(&increment, &self.state).ok()?;
-        let stress = Biot::new(&f).ok()?.conjugate(&response.stress);
+        let law = self.subject.law();
+        let response = law.update(&increment, &self.state).ok()?;
+        let mut whole = f;
+        whole.m33 = law.out_of_plane_stretch(&response.state).unwrap_or(f.m33);
+        let stress = Biot::new(&whole).ok()?.conjugate(&response.stress);
         Some((stress.dot(&self.across), response))
     }
 

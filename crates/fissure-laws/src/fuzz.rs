@@ -226,7 +226,12 @@ impl<S: Subject> Target<'_, S> {
             opening / increment.band.max_width()
         });
         let failure = (natural + opening).min(0.1);
-        let steps = TANGENT_STEPS.map(|step| step * failure);
+        let [a, b, c] = TANGENT_STEPS.map(|step| step * failure);
+        // A failed crack that follows the strain turns over strains of its size, and where the last step ended cracks have
+        // their kinks: of two at once no quotient across them is the derivative.
+        let near = 1e-2 * strain.min(failure);
+        let within = 0.1 * (increment.f_new - increment.f_old).norm().min(failure);
+        let steps = [a, b, c, near, within];
         let law = self.subject.law();
         if let Ok(error) = tangent_error(law, increment, old, self.stiffness, &steps) {
             counts.tangents += 1;

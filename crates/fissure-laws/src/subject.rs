@@ -244,3 +244,17 @@ pub(super) fn virgin_tangent<M: Material>(law: &M) -> Tangent {
     let tangent = law.tangent(&rest, &law.initial());
     tangent.unwrap_or(Tangent(Matrix6::from_element(f64::NAN)))
 }
+
+/// Inverse of the virgin stiffness, 1/Pa; in plane stress of the in-plane components, and one for each of the others.
+pub(super) fn virgin_compliance<M: Material>(law: &M) -> Option<Tangent> {
+    let mut matrix = virgin_tangent(law).0;
+    for i in out_of_plane::<M>() {
+        matrix[(*i, *i)] = 1.0;
+    }
+    matrix.try_inverse().map(Tangent)
+}
+
+/// Mandel positions of what a law in plane stress determines itself.
+pub(super) fn out_of_plane<M: Material>() -> &'static [usize] {
+    if M::PLANE { &[2, 3, 4] } else { &[] }
+}

@@ -29,6 +29,7 @@ use fissure_tensor::{Matrix3, Sym, Vector3};
 use super::{
     Decohesion, Plane, Trial,
     decohesion::{contact, pressure, slide, slide_rate},
+    turn::maximum_rate,
 };
 use crate::bisection::bisect;
 use crate::{
@@ -440,6 +441,16 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         }
     }
 
+    /// That of the stress shrunk to the surface, of which the share follows: `F_n(s σ) = 0`.
+    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        let share = self.share_on_surface(stress, normal, 1.0);
+        let shrunk = *stress * share;
+        let gradient = self.surface.gradient(&shrunk, normal, 1.0);
+        let share_rate = -share * gradient.dot(stress_rate) / gradient.dot(stress);
+        let shrunk_rate = *stress_rate * share + *stress * share_rate;
+        maximum_rate(self, &shrunk, &shrunk_rate, normal)
+    }
+
     /// As on a proportional path.
     fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
         stress.traction(normal) * self.share_on_surface(stress, normal, 1.0)
@@ -469,17 +480,17 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         plane
     }
 
-    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> Option<[Sym; 3]> {
+    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3] {
         let normal = new.normal();
         if new.failed {
             let rate = self.contact_rate(old, new, trial);
             let row = |i: usize| Sym::dyad_of(&rate.row(i).transpose(), &normal);
-            return Some([row(0), row(1), row(2)]);
+            return [row(0), row(1), row(2)];
         }
         if new.opening == old.opening && new.slip == old.slip {
-            return Some([Sym::ZERO; 3]);
+            return [Sym::ZERO; 3];
         }
-        Some(self.flow_rate(old, new, trial))
+        self.flow_rate(old, new, trial)
     }
 
     fn stored(&self, _elastic: &crate::Isotropic, _plane: &Plane) -> f64 {

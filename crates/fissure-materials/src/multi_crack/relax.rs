@@ -166,7 +166,7 @@ impl<D: Decohesion> Point<'_, D> {
         for (row, start) in old.iter().enumerate() {
             let trial = self.trial(planes, row, &stress, tolerance);
             let next = self.decohesion.release(start, &trial);
-            let rate = self.decohesion.release_rate(start, &next, &trial)?;
+            let rate = self.decohesion.release_rate(start, &next, &trial);
             let left = next.jump() - planes[row].jump();
             for axis in 0..3 {
                 let line = 3 * row + axis;
