@@ -3,12 +3,12 @@
 use fissure_materials::PointError;
 use fissure_materials::contract::{Contract, Random, Summary, Violation};
 use fissure_materials::*;
-use fissure_tensor::{Sym, Tangent};
+use fissure_tensor::Sym;
 
 use super::fuzz::{self, Fuzzed};
 use super::isoerror::{self, Map};
 use super::speed::{self, Speed};
-use super::subject::{State, Subject, virgin_tangent};
+use super::subject::{State, Subject, out_of_plane, virgin_compliance};
 
 /// Where a law is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,17 +35,12 @@ impl Space {
 /// Cracking strain `ε − C⁻¹:T` of a law on the Biot strain, with the virgin stiffness `C`; in plane
 /// stress its in-plane components.
 fn crack_strain<M: Material>(law: &M, sample: &Sample<M::State>) -> Sym {
-    let mut matrix = virgin_tangent(law).0;
-    let out_of_plane: &[usize] = if M::PLANE { &[2, 3, 4] } else { &[] };
-    for &i in out_of_plane {
-        matrix[(i, i)] = 1.0;
-    }
-    let Some(inverse) = matrix.try_inverse() else {
+    let Some(compliance) = virgin_compliance(law) else {
         return Sym::ZERO;
     };
-    let mut strain = sample.strain - Tangent(inverse).apply(&sample.biot_stress());
-    for &i in out_of_plane {
-        strain.mandel[i] = 0.0;
+    let mut strain = sample.strain - compliance.apply(&sample.biot_stress());
+    for i in out_of_plane::<M>() {
+        strain.mandel[*i] = 0.0;
     }
     strain
 }

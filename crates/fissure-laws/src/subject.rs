@@ -2,7 +2,7 @@
 
 use fissure_materials::contract::{Contract, Summary, Violation};
 use fissure_materials::*;
-use fissure_tensor::{Matrix3, Tangent};
+use fissure_tensor::{Matrix3, Sym, Tangent, Vector3};
 use nalgebra::Matrix6;
 
 use crate::law::{Law, Space};
@@ -27,6 +27,8 @@ pub(super) trait Subject: Send + Sync {
     fn fracture(&self) -> Option<Fracture>;
     /// Widest band, m; may be infinite.
     fn band_limit(&self) -> f64;
+    /// Whether stress along a plane has its part in whether it opens.
+    fn sees_along(&self) -> bool;
     fn cracks(&self, state: &State<Self>) -> Vec<Crack>;
     fn irreversible(&self, state: &State<Self>) -> Vec<f64>;
     fn contract(&self, contract: &Contract) -> Result<Summary, Violation>;
@@ -117,6 +119,9 @@ impl<M: Material> Subject for Plain<M> {
     fn band_limit(&self) -> f64 {
         self.band_limit
     }
+    fn sees_along(&self) -> bool {
+        false
+    }
     fn cracks(&self, _: &M::State) -> Vec<Crack> {
         Vec::new()
     }
@@ -152,6 +157,9 @@ macro_rules! cracking_subject {
             }
             fn band_limit(&self) -> f64 {
                 self.said().band_limit
+            }
+            fn sees_along(&self) -> bool {
+                sees_along(&self.0)
             }
             fn cracks(&self, state: &State<Self>) -> Vec<Crack> {
                 self.0.cracks(state)
@@ -216,6 +224,16 @@ fn fracture<M: Cracking>(law: &M) -> Fracture {
     }
 }
 
+fn sees_along<M: Cracking>(law: &M) -> bool {
+    let scale = Scale::default();
+    let strength = law.strength(&scale);
+    let of = |along: f64| {
+        let stress = Sym::diagonal(0.5 * strength, along, 0.0);
+        law.failure_along(&stress, &Vector3::x(), &scale)
+    };
+    of(0.0) != of(-0.5 * strength)
+}
+
 /// Largest entry of the virgin tangent, Pa.
 pub(super) fn stiffness<M: Material>(law: &M) -> f64 {
     virgin_tangent(law).max_abs()
@@ -225,4 +243,18 @@ pub(super) fn virgin_tangent<M: Material>(law: &M) -> Tangent {
     let rest = Increment::to(Matrix3::identity());
     let tangent = law.tangent(&rest, &law.initial());
     tangent.unwrap_or(Tangent(Matrix6::from_element(f64::NAN)))
+}
+
+/// Inverse of the virgin stiffness, 1/Pa; in plane stress of the in-plane components, and one for each of the others.
+pub(super) fn virgin_compliance<M: Material>(law: &M) -> Option<Tangent> {
+    let mut matrix = virgin_tangent(law).0;
+    for i in out_of_plane::<M>() {
+        matrix[(*i, *i)] = 1.0;
+    }
+    matrix.try_inverse().map(Tangent)
+}
+
+/// Mandel positions of what a law in plane stress determines itself.
+pub(super) fn out_of_plane<M: Material>() -> &'static [usize] {
+    if M::PLANE { &[2, 3, 4] } else { &[] }
 }

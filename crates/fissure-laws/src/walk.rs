@@ -46,8 +46,7 @@ pub(super) struct Proposal {
     strain: Sym,
     /// The deformation gradient at its end.
     pub f: Matrix3<f64>,
-    /// Whether `det F` is in [0.2, 5], `U` positive definite and a thickness left: a law may refuse
-    /// all else.
+    /// Whether `det F` is in [0.2, 5] and `U` positive definite: a law may refuse all else.
     pub sound: bool,
 }
 
@@ -119,14 +118,12 @@ impl Walk {
         };
         let stretch = Matrix3::identity() + strain.to_matrix();
         let f = turned * stretch;
-        // In plane stress a law on the small strain thins by up to its trace: to nothing at 1.
-        let too_thin = self.plane && !self.spins && strain.trace() >= 1.0;
         let least = (strain + Sym::IDENTITY).spectrum().values[2];
         Proposal {
             rotation: turned,
             strain,
             f,
-            sound: least > 0.0 && (0.2..=5.0).contains(&f.determinant()) && !too_thin,
+            sound: least > 0.0 && (0.2..=5.0).contains(&f.determinant()),
         }
     }
 

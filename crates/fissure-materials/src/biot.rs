@@ -7,7 +7,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use fissure_tensor::{Matrix3, Sym, Tangent, polar, solve_lyapunov};
+use fissure_tensor::{Matrix3, Sym, Tangent, Vector3, polar, solve_lyapunov};
 
 use crate::MaterialError;
 
@@ -78,10 +78,20 @@ impl Biot {
     }
 
     /// Cauchy stress from the stress `T` conjugate to the strain.
+    ///
+    /// `U·S = T + W` with a skew `W`, since `S·U` is its transpose; that `S` is symmetric asks `W·U + U·W = U·T − T·U`,
+    /// for the axial vectors `(tr U − U) w = k`, and `F·S·Fᵀ` is `R·(T + W)·Fᵀ`: no spectrum needed.
     pub fn cauchy(&self, biot_stress: &Sym) -> Sym {
-        self.second_piola(biot_stress)
-            .congruence(&self.deformation_gradient)
-            / self.jacobian
+        if self.stretch.yz() == 0.0 && self.stretch.xz() == 0.0 {
+            let second_piola = self.second_piola(biot_stress);
+            return second_piola.congruence(&self.deformation_gradient) / self.jacobian;
+        }
+        let t = biot_stress.to_matrix();
+        let ut = self.stretch.to_matrix() * t;
+        let axial = Vector3::new(ut.m32 - ut.m23, ut.m13 - ut.m31, ut.m21 - ut.m12);
+        let half = t + self.solve_pairs(&axial).cross_matrix();
+        let kirchhoff = self.rotation * half * self.deformation_gradient.transpose();
+        Sym::from_matrix(&kirchhoff) / self.jacobian
     }
 
     /// The stress `T` conjugate to the strain from the Cauchy stress: `cauchy` inverted.
@@ -119,6 +129,20 @@ impl Biot {
             let stress_rate = rate(&stretch_rate, &rotation_rate);
             self.truesdell(&second_piola, &stretch_rate, &stress_rate)
         })
+    }
+
+    /// Solves `(tr U - U) w = k`, by elimination: positive definite.
+    fn solve_pairs(&self, k: &Vector3<f64>) -> Vector3<f64> {
+        let u = &self.stretch;
+        let (a, b, c) = (u.yy() + u.zz(), u.xx() + u.zz(), u.xx() + u.yy());
+        let (yz, xz, xy) = (-u.yz(), -u.xz(), -u.xy());
+        let (first, second) = (xy / a, xz / a);
+        let (b, yz, c) = (b - first * xy, yz - first * xz, c - second * xz);
+        let (y, z) = (k.y - first * k.x, k.z - second * k.x);
+        let third = yz / b;
+        let z = (z - third * y) / (c - third * yz);
+        let y = (y - yz * z) / b;
+        Vector3::new((k.x - xy * y - xz * z) / a, y, z)
     }
 
     fn second_piola(&self, biot_stress: &Sym) -> Sym {

@@ -43,7 +43,7 @@ impl Turning {
     }
 
     /// Change of the normal with the strain.
-    fn rate(&self, strain_rate: &Sym) -> Vector3<f64> {
+    pub fn rate(&self, strain_rate: &Sym) -> Vector3<f64> {
         let traction = strain_rate.traction(&self.normal);
         self.others.iter().map(|m| m * m.dot(&traction)).sum()
     }
@@ -60,7 +60,6 @@ impl Turning {
     /// Derivative of the width of the band, in space, for `F → (1 + d) F`: the normal turns with
     /// the strain and both with the rotation.
     pub fn of_width(&self, band: &Band, kinematics: &Biot, d: &Sym) -> f64 {
-        const ANGLE: f64 = 1e-6;
         if matches!(band, Band::Uniform(_)) {
             return 0.0;
         }
@@ -74,11 +73,17 @@ impl Turning {
             * inverse.unwrap_or_else(Matrix3::zeros);
         let spatial = rotation * self.normal;
         let rate = rotation_rate * self.normal + rotation * self.rate(&stretch_rate);
-        let size = rate.norm();
-        if size == 0.0 {
-            return 0.0;
-        }
-        let side = rate * (ANGLE / size);
-        (band.width(&(spatial + side)) - band.width(&(spatial - side))) * (size / (2.0 * ANGLE))
+        width_rate(band, &spatial, &rate)
     }
+}
+
+/// Rate of the width of a band when the spatial normal turns.
+pub(crate) fn width_rate(band: &Band, normal: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
+    const ANGLE: f64 = 1e-6;
+    let size = rate.norm();
+    if matches!(band, Band::Uniform(_)) || size == 0.0 {
+        return 0.0;
+    }
+    let side = rate * (ANGLE / size);
+    (band.width(&(normal + side)) - band.width(&(normal - side))) * (size / (2.0 * ANGLE))
 }

@@ -162,7 +162,7 @@ pub(super) const FIXED_PLANE: Entry = Entry {
     name: "mode-one-fixed",
     about: "one failure plane that opens, as it started",
     parameters: MODE_ONE,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| cracking(mode_one::<1>(values, Planes::Fixed), space),
 };
 
@@ -170,7 +170,7 @@ pub(super) const SEVERAL_PLANES: Entry = Entry {
     name: "mode-one-multiple",
     about: "up to six failure planes that open",
     parameters: MODE_ONE,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| cracking(mode_one::<6>(values, Planes::Multiple(None)), space),
 };
 
@@ -178,7 +178,7 @@ pub(super) const ROTATING_PLANE: Entry = Entry {
     name: "mode-one-rotating",
     about: "one failure plane that opens and follows the largest principal strain",
     parameters: MODE_ONE,
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| cracking(mode_one::<1>(values, Planes::Rotating), space),
 };
 
@@ -192,7 +192,7 @@ pub(super) const GEOLOGICAL: Entry = Entry {
         strength(2.7e6),
         toughness(61.35),
     ],
-    plane_stress: false,
+    plane_stress: true,
     build: |values, space| {
         let law: MultiCrack<1, GeologicalFlow> = MultiCrack {
             elastic: isotropic(values),

@@ -30,9 +30,9 @@ use self::plane::PlaneAt;
 use super::crack::{AnisotropicDamageState, CrackAt, Moved};
 use super::mixed_mode::MixedMode;
 use super::mode::Mode;
-use super::tangent::width_rate;
 use crate::error::{check_below, check_finite, check_scaled_toughness};
 use crate::softening::Linear;
+use crate::turning::width_rate;
 use crate::{
     Biot, Increment, Initiation, Material, MaterialError, Response, Scale, SheetStep, Softening,
     check_parameter,

@@ -5,6 +5,7 @@ use fissure_tensor::{Band, Matrix3, Spectrum, Sym, Tangent, Vector3};
 use super::crack::{Demand, Moved, Slopes};
 use super::elasticity::Elastic;
 use crate::Biot;
+use crate::turning::width_rate;
 
 /// How Cauchy's stress follows from `T`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,15 +178,4 @@ impl<const SHEET: bool> Start<'_, SHEET> {
             + Sym::dyad_of(&self.normal, direction) * (2.0 * sliding);
         per_width * (width_rate / self.width)
     }
-}
-
-/// Rate of the width of a band when the spatial normal turns.
-pub(super) fn width_rate(band: &Band, normal: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
-    const ANGLE: f64 = 1e-6;
-    let size = rate.norm();
-    if matches!(band, Band::Uniform(_)) || size == 0.0 {
-        return 0.0;
-    }
-    let side = rate * (ANGLE / size);
-    (band.width(&(normal + side)) - band.width(&(normal - side))) * (size / (2.0 * ANGLE))
 }

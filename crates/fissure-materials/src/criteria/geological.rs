@@ -105,6 +105,15 @@ impl OnPlane {
             lateral_determinant,
         }
     }
+
+    /// `∂S/∂σ` and `∂M/∂σ`, Pa.
+    pub(crate) fn lateral_gradients(stress: &Sym, normal: &Vector3<f64>) -> [Sym; 2] {
+        let plane = Matrix3::identity() - normal * normal.transpose();
+        let lateral = stress.congruence(&plane);
+        // In the plane ∂M/∂σ is the adjugate of the 2×2 block, S·1 − σ.
+        let within = Sym::IDENTITY - Sym::dyad(normal);
+        [within, within * lateral.trace() - lateral]
+    }
 }
 
 impl Geological {
@@ -211,6 +220,66 @@ impl Geological {
         }
     }
 
+    /// Change of `∂F_n/∂τ_n` of [`flow_partials`](Self::flow_partials), 1/Pa, with the stress on the plane (whose shear does
+    /// not enter) and with the softening: eq. 3.5.88 differentiated once more.
+    pub(crate) fn flow_normal_rate(
+        &self,
+        plane: &OnPlane,
+        softening: f64,
+        plane_rate: &OnPlane,
+        softening_rate: f64,
+    ) -> f64 {
+        let (strength, f_c, c) = (self.strength, self.compressive_strength, self.ratio());
+        let spread = (2.0 - self.chi()) / (f_c * f_c);
+        let (tau, tau_rate) = (plane.normal / strength, plane_rate.normal / strength);
+        let lateral = plane.lateral_sum / f_c;
+        let sigma_squared = lateral * lateral - spread * plane.lateral_determinant;
+        let sigma_squared_rate =
+            2.0 * lateral * plane_rate.lateral_sum / f_c - spread * plane_rate.lateral_determinant;
+        let s = softening * sigma_squared;
+        let s_rate = softening_rate * sigma_squared + softening * sigma_squared_rate;
+        let free = 2.0 - (plane.normal + plane.lateral_sum) / (3.0 * strength);
+        let (held, held_rate, follows) = if free > LEAST_PRESSURE_TERM {
+            let rate = -(plane_rate.normal + plane_rate.lateral_sum) / (3.0 * strength);
+            (free, rate, 1.0)
+        } else {
+            (LEAST_PRESSURE_TERM, 0.0, 0.0)
+        };
+        let (cohesion, cohesion_rate) = if softening >= s {
+            (softening - s, softening_rate - s_rate)
+        } else {
+            (0.0, 0.0)
+        };
+        let grip = self.normal_coupling + 1.0 / held;
+        let grip_rate = -held_rate / (held * held);
+        let gain_rate = s_rate * grip + s * grip_rate;
+        let b = tau * (1.0 + s * grip) - cohesion;
+        let b_rate = tau_rate * (1.0 + s * grip) + tau * gain_rate - cohesion_rate;
+        let shrink = 1.0 / (1.0 + self.lateral_coupling * s);
+        let shrink_rate = -self.lateral_coupling * shrink * shrink * s_rate;
+        let psi = -c * b * shrink;
+        let psi_rate = -c * (b_rate * shrink + b * shrink_rate);
+        let (_, slope) = self.capacity(psi);
+        let slope_rate = self.capacity_bend(psi) * psi_rate;
+        let pressure = follows * tau * s / (3.0 * held * held);
+        let pressure_rate = follows * (tau_rate * s + tau * s_rate) / (3.0 * held * held)
+            - 2.0 * pressure * held_rate / held;
+        let along = 1.0 + s * grip + pressure;
+        ((slope_rate * shrink + slope * shrink_rate) * along
+            + slope * shrink * (gain_rate + pressure_rate))
+            / strength
+    }
+
+    /// Derivative of the slope of [`capacity`](Self::capacity) with ψ.
+    fn capacity_bend(&self, psi: f64) -> f64 {
+        if psi < 0.0 {
+            return 0.0;
+        }
+        let tanh = (psi * (1.0 + self.shape_coupling * psi)).tanh();
+        let steepness = 1.0 + 2.0 * self.shape_coupling * psi;
+        (2.0 * self.shape_coupling - 2.0 * steepness * steepness * tanh) * (1.0 - tanh * tanh)
+    }
+
     /// The normal traction at which a plane without shear starts to move, Pa: `B = 0`, cohesion held,
     /// for the stress along the plane and `P` as they are.
     pub(crate) fn tension(&self, plane: &OnPlane, softening: f64) -> f64 {
@@ -229,14 +298,11 @@ impl Geological {
         let traction = stress.traction(normal);
         let along = normal.dot(&traction);
         let shear = traction - normal * along;
-        let plane = Matrix3::identity() - normal * normal.transpose();
-        let lateral = stress.congruence(&plane);
-        // In the plane ∂M/∂σ is the adjugate of the 2×2 block, S·1 − σ.
-        let within = Sym::IDENTITY - Sym::dyad(normal);
+        let [lateral_sum, lateral_determinant] = OnPlane::lateral_gradients(stress, normal);
         Sym::dyad(normal) * partials.normal
             + Sym::dyad_of(normal, &shear) * (2.0 * partials.shear_squared)
-            + within * partials.lateral_sum
-            + (within * lateral.trace() - lateral) * partials.lateral_determinant
+            + lateral_sum * partials.lateral_sum
+            + lateral_determinant * partials.lateral_determinant
     }
 
     /// The direction in which the crack's faces part under associated flow, ∂F_n/∂τ, 1/Pa

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use fissure_tensor::{Matrix3, Sym, Vector3};
 
-use super::Plane;
+use super::{Plane, turn::maximum_rate};
 use crate::{Initiation, Isotropic, MaterialError, Scale};
 
 /// One plane as seen by its return: the rest of the point is frozen.
@@ -58,11 +58,6 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
-    /// Whether planes of this kind can be returned together with others.
-    fn several(&self) -> bool {
-        true
-    }
-
     /// Whether a plane across a sheet asks for nothing out of the sheet, neither stress nor stiffness, so
     /// that plane stress has a closed form.
     fn has_sheet_form(&self) -> bool {
@@ -106,6 +101,11 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     /// The largest failure function and its direction.
     fn initiation(&self, stress: &Sym) -> Initiation;
 
+    /// Change of the normal that [`initiation`](Self::initiation) gives, with the stress.
+    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        maximum_rate(self, stress, stress_rate, normal)
+    }
+
     /// Traction on a plane at the moment at which it starts, from that beyond the surface, Pa.
     fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64>;
 
@@ -114,11 +114,8 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     fn release(&self, old: &Plane, trial: &Trial) -> Plane;
 
     /// Change of the jump with the stress of the trial at the end of a return from `old` to `new`:
-    /// `du_i = R_i:dT`, m/Pa. `None` if the derivative is not at hand; the tangent is then a
-    /// difference quotient.
-    fn release_rate(&self, _old: &Plane, _new: &Plane, _trial: &Trial) -> Option<[Sym; 3]> {
-        None
-    }
+    /// `du_i = R_i:dT`, m/Pa.
+    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3];
 
     /// Energy stored in the plane, J/m².
     fn stored(&self, elastic: &Isotropic, plane: &Plane) -> f64;

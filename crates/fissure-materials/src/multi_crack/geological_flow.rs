@@ -6,11 +6,15 @@
 //! ```text
 //! Δu_n = Δω ∂F/∂τ_n,   Δu_s = Δω 2 τ_s/τ_sf²,   F_n = 0.
 //! ```
-//! The opening fixes `τ_n = t₀ − (E₁/L) u_n`, `S = S₀ − 2(λ/L) u_n`, `M = M₀ − a S₀ + a²` with
-//! `a = (λ/L) u_n`, and `f_n`; `F_n = 0` then gives `τ_s`, and `τ_s = τ₀ − (μ/L) Δu_s` gives the slip,
-//! which keeps the direction of the trial. What is left is one equation for the opening,
-//! `Δu_n 2τ_s/τ_sf² = Δu_s ∂F/∂τ_n`, found by bisection between the old opening and the critical
-//! one: it always ends, and a step whose root lies beyond fails the plane.
+//! With `N = ∂F/∂τ_n` and the shear traction `τ₀` if nothing slid, `τ_s = τ₀ − (μ/L) Δu_s` and the flow give the shear that
+//! goes with an opening,
+//! ```text
+//! τ_s = κ τ₀,   κ = N/(N + 2 (μ/L) Δu_n/τ_sf²),
+//! ```
+//! and the opening fixes `τ_n = t₀ − (E₁/L) u_n`, `S = S₀ − 2(λ/L) u_n`, `M = M₀ − a S₀ + a²` with
+//! `a = (λ/L) u_n`, and `f_n`. What is left is one equation for the opening, `F_n = 0`: found by bisection
+//! between the old opening and the critical one, which always ends (a step whose root lies beyond fails
+//! the plane), and differentiated implicitly for the tangent. The slip keeps the direction of the trial.
 //!
 //! The `F_n` that drives the jump has its cohesion `f_n − s` held at zero from below
 //! ([`Geological::flow_partials`] says why), that at which a plane starts is the printed one.
@@ -20,16 +24,17 @@
 //! it slides on the surface `F_n(f_n = 0) = 0`, which is continuous. A plane that failed under
 //! pressure by dilation stays open by what it has dilated ([`Plane::seat`]).
 
-use fissure_tensor::{Sym, Vector3};
+use fissure_tensor::{Matrix3, Sym, Vector3};
 
 use super::{
     Decohesion, Plane, Trial,
-    decohesion::{contact, slide},
+    decohesion::{contact, pressure, slide, slide_rate},
+    turn::maximum_rate,
 };
 use crate::bisection::bisect;
 use crate::{
     Initiation, MaterialError, Scale, Softening, check_parameter,
-    criteria::{FailureCriterion, Geological, OnPlane},
+    criteria::{FailureCriterion, Geological, OnPlane, Partials},
     softening::Linear,
 };
 
@@ -73,21 +78,65 @@ impl<S: Softening> Opening<'_, S> {
         }
     }
 
-    /// Negative where more opening is needed, and the shear traction on the surface.
-    fn excess(&self, opening: f64) -> (f64, f64) {
-        let law = self.law;
-        let partials = law
-            .surface
-            .flow_partials(&self.on_plane(opening), law.left(opening));
+    /// The share `κ` of the shear traction that an opening leaves, and `∂F/∂τ_n` and `−F_n` without shear.
+    fn share(&self, opening: f64) -> (f64, Partials) {
+        let (law, plane) = (self.law, self.on_plane(opening));
+        let partials = law.surface.flow_partials(&plane, law.left(opening));
+        let push = partials.normal.max(0.0);
+        let given = self.given_way(opening);
+        // A plane that does not give way at all holds no shear either: `F_n` alone decides.
+        let share = if push > 0.0 {
+            push / (push + given)
+        } else {
+            0.0
+        };
+        (share, partials)
+    }
+
+    /// `2 (μ/L) Δu_n/τ_sf²`, 1/Pa.
+    fn given_way(&self, opening: f64) -> f64 {
+        let strength = self.law.surface.shear_strength;
+        2.0 * self.shear_stiffness * (opening - self.old_opening) / (strength * strength)
+    }
+
+    /// `−F_n`: negative where more opening is needed.
+    fn excess(&self, opening: f64) -> f64 {
+        let (share, partials) = self.share(opening);
+        let shear = share * self.shear / self.law.surface.shear_strength;
+        -partials.value - shear * shear
+    }
+
+    /// The share of the shear traction that is kept at the end of the step, and the rest of [`share`](Self::share). Where
+    /// the plane opens by next to nothing, as under strong pressure, the opening does not resolve it; there it follows from
+    /// `F_n = 0`, which elsewhere loses it where it is small.
+    fn kept(&self, opening: f64) -> (f64, Partials) {
+        let (share, partials) = self.share(opening);
         let capacity = -partials.value;
-        if capacity < 0.0 {
-            return (capacity, 0.0);
+        if capacity * opening > opening - self.old_opening && self.shear > 0.0 {
+            let surface = self.law.surface.shear_strength * capacity.sqrt();
+            return (surface.min(self.shear) / self.shear, partials);
         }
-        let strength = law.surface.shear_strength;
-        let allowed = (strength * capacity.sqrt()).min(self.shear);
-        let slip = (self.shear - allowed) / self.shear_stiffness;
-        let along = (opening - self.old_opening) * 2.0 * allowed / (strength * strength);
-        (along - slip * partials.normal.max(0.0), allowed)
+        (share, partials)
+    }
+
+    /// The shear traction on the surface at the old opening, Pa.
+    fn shear_at_start(&self) -> f64 {
+        let (_, partials) = self.share(self.old_opening);
+        let capacity = (-partials.value).max(0.0);
+        (self.law.surface.shear_strength * capacity.sqrt()).min(self.shear)
+    }
+
+    /// Change of the stress on the plane and of `f_n` with the opening.
+    fn rate(&self, opening: f64) -> (OnPlane, f64) {
+        let lateral = self.lateral_stiffness;
+        let plane = OnPlane {
+            normal: -self.normal_stiffness,
+            shear_squared: 0.0,
+            lateral_sum: -2.0 * lateral,
+            lateral_determinant: lateral * (2.0 * lateral * opening - self.rest.lateral_sum),
+        };
+        let length = self.law.length();
+        (plane, self.law.softening.slope(opening / length) / length)
     }
 
     /// The opening at the end of the step; `None` if it is beyond the critical one.
@@ -99,17 +148,17 @@ impl<S: Softening> Opening<'_, S> {
             let free = (self.rest.normal / self.normal_stiffness).max(0.0);
             high = low.max(free) + self.law.length();
             for _ in 0..60 {
-                if self.excess(high).0 >= 0.0 {
+                if self.excess(high) >= 0.0 {
                     break;
                 }
                 high *= 2.0;
             }
         }
         // NaN fails the comparison: the plane fails, and the stress is refused as not finite.
-        if !(self.excess(high).0 >= 0.0) {
+        if !(self.excess(high) >= 0.0) {
             return None;
         }
-        Some(bisect(low, high, |opening| self.excess(opening).0 < 0.0)[1])
+        Some(bisect(low, high, |opening| self.excess(opening) < 0.0)[1])
     }
 }
 
@@ -152,7 +201,7 @@ impl<S: Softening> GeologicalFlow<S> {
         let from = normal.dot(&last);
         let to = trial.normal_traction(old) - trial.normal_stiffness(old) * old.opening;
         let sheared = last - normal * from;
-        let held = trial.shear_traction(old) - old.slip() * trial.shear_stiffness(old);
+        let held = self.held_shear(old, trial);
         let at = |part: f64| sheared + (held - sheared) * part;
         // That of an open plane's pressure, whose root would be none.
         let round_off = 64.0 * f64::EPSILON * trial.stress.norm();
@@ -164,6 +213,123 @@ impl<S: Softening> GeologicalFlow<S> {
             return sheared;
         }
         at(bisect(0.0, 1.0, holds)[1])
+    }
+
+    /// Shear traction if nothing slid, Pa.
+    fn held_shear(&self, old: &Plane, trial: &Trial) -> Vector3<f64> {
+        trial.shear_traction(old) - old.slip() * trial.shear_stiffness(old)
+    }
+
+    /// The plane seen as a function of its opening, for the size of the shear traction if nothing slid.
+    fn opening(&self, old: &Plane, trial: &Trial, shear: f64) -> Opening<'_, S> {
+        Opening {
+            law: self,
+            rest: OnPlane::new(&trial.stress, &old.normal()),
+            old_opening: old.opening,
+            shear,
+            normal_stiffness: trial.normal_stiffness(old),
+            lateral_stiffness: trial.elastic.lambda() / old.width,
+            shear_stiffness: trial.shear_stiffness(old),
+        }
+    }
+
+    /// Change of [`residual`](Self::residual) with the pressure, where it slides.
+    fn residual_rate(&self, pressure: f64) -> f64 {
+        if let Some(friction) = self.friction {
+            return friction;
+        }
+        let plane = OnPlane {
+            normal: -pressure,
+            shear_squared: 0.0,
+            lateral_sum: 0.0,
+            lateral_determinant: 0.0,
+        };
+        let per_capacity = 0.5 * self.surface.shear_strength.powi(2) / self.residual(pressure);
+        per_capacity * self.surface.partials(&plane, 0.0).normal
+    }
+
+    /// Change of the jump of a failed plane with the traction of the trial, m/Pa.
+    fn contact_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> Matrix3<f64> {
+        let normal = new.normal();
+        if new.opening > new.seat {
+            // Open: all the stress is given up.
+            let across = normal * normal.transpose();
+            let plane = Matrix3::identity() - across;
+            return across / trial.normal_stiffness(new) + plane / trial.shear_stiffness(new);
+        }
+        let pressure = pressure(new, trial);
+        let Some((with_traction, with_limit)) = slide_rate(old, trial, self.residual(pressure))
+        else {
+            return Matrix3::zeros();
+        };
+        if pressure > 0.0 {
+            with_traction - with_limit * normal.transpose() * self.residual_rate(pressure)
+        } else {
+            with_traction
+        }
+    }
+
+    /// Change of the jump of a plane that flows, from `F_n = 0` and the flow, differentiated at the end of the step.
+    fn flow_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3] {
+        let normal = new.normal();
+        let held = self.held_shear(old, trial);
+        let size = held.norm();
+        let way = held.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        let opening = self.opening(old, trial, size);
+        let (share, partials) = opening.kept(new.opening);
+        // The stress on the plane changes with the opening, and with the trial as that of the trial does.
+        let (per_opening, softening) = opening.rate(new.opening);
+        let (there, left) = (opening.on_plane(new.opening), self.left(new.opening));
+        let [sum, determinant] = OnPlane::lateral_gradients(&trial.stress, &normal);
+        let lateral = opening.lateral_stiffness * new.opening;
+        let gradients = [Sym::dyad(&normal), sum, determinant - sum * lateral];
+        let per_part = [
+            partials.normal,
+            partials.lateral_sum,
+            partials.lateral_determinant,
+        ];
+        let (mut source, mut bend_source) = (Sym::ZERO, Sym::ZERO);
+        for (index, gradient) in gradients.iter().enumerate() {
+            let is = |other: usize| f64::from(u8::from(index == other));
+            let unit = OnPlane {
+                normal: is(0),
+                shear_squared: 0.0,
+                lateral_sum: is(1),
+                lateral_determinant: is(2),
+            };
+            let bend = self.surface.flow_normal_rate(&there, left, &unit, 0.0);
+            source += *gradient * per_part[index];
+            bend_source += *gradient * bend;
+        }
+        let bend = self
+            .surface
+            .flow_normal_rate(&there, left, &per_opening, softening);
+        let slope = partials.normal * per_opening.normal
+            + partials.lateral_sum * per_opening.lateral_sum
+            + partials.lateral_determinant * per_opening.lateral_determinant
+            + partials.softening * softening;
+        // Two equations for the shear traction τ and the opening:
+        //   2τ/τ_sf² dτ + slope du = −source,   N dτ + (κ τ g − (τ₀ − τ) κ bend) du = κ N dτ₀ + (τ₀ − τ) κ bend_source.
+        let push = partials.normal.max(0.0);
+        let (shear, rest) = (share * size, (1.0 - share) * size * share);
+        let strength_squared = self.surface.shear_strength.powi(2);
+        let per_shear = 2.0 * shear / strength_squared;
+        let giving = 2.0 * opening.shear_stiffness / strength_squared;
+        let follows = share * shear * giving - rest * bend;
+        let determinant = per_shear * follows - push * slope;
+        let sheared = Sym::dyad_of(&normal, &way);
+        let right = sheared * (share * push) + bend_source * rest;
+        let opened = (right * per_shear + source * push) * (1.0 / determinant);
+        let shear_rate = (source * -follows - right * slope) * (1.0 / determinant);
+        // The slip is what τ₀ is less, over the stiffness, along τ₀: along it (dτ₀ − dτ), across it as it turns.
+        let flexibility = 1.0 / opening.shear_stiffness;
+        let lost = sheared * share - shear_rate;
+        std::array::from_fn(|i| {
+            let mut across = normal * -normal[i];
+            across[i] += 1.0;
+            let turned = Sym::dyad_of(&normal, &across) * (1.0 - share);
+            opened * normal[i] + (turned + lost * way[i]) * flexibility
+        })
     }
 
     /// Whether the plane stays as it was.
@@ -191,12 +357,6 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
 
     /// Which of two planes starts may turn on a hair, and with friction the shear drops at failure.
     fn continuous(&self) -> bool {
-        false
-    }
-
-    /// The flow does not follow from a potential, and returning one plane after the other runs in
-    /// circles in about one large step of twenty.
-    fn several(&self) -> bool {
         false
     }
 
@@ -281,8 +441,19 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         }
     }
 
+    /// That of the stress shrunk to the surface, of which the share follows: `F_n(s σ) = 0`.
+    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        let share = self.share_on_surface(stress, normal, 1.0);
+        let shrunk = *stress * share;
+        let gradient = self.surface.gradient(&shrunk, normal, 1.0);
+        let share_rate = -share * gradient.dot(stress_rate) / gradient.dot(stress);
+        let shrunk_rate = *stress_rate * share + *stress * share_rate;
+        maximum_rate(self, &shrunk, &shrunk_rate, normal)
+    }
+
+    /// As on a proportional path.
     fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        stress.traction(normal)
+        stress.traction(normal) * self.share_on_surface(stress, normal, 1.0)
     }
 
     fn release(&self, old: &Plane, trial: &Trial) -> Plane {
@@ -293,16 +464,7 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         if self.holds(old, trial, &held) {
             return *old;
         }
-        let shear = trial.shear_traction(old) - old.slip() * trial.shear_stiffness(old);
-        let opening = Opening {
-            law: self,
-            rest: OnPlane::new(&trial.stress, &old.normal()),
-            old_opening: old.opening,
-            shear: shear.norm(),
-            normal_stiffness: trial.normal_stiffness(old),
-            lateral_stiffness: trial.elastic.lambda() / old.width,
-            shear_stiffness: trial.shear_stiffness(old),
-        };
+        let opening = self.opening(old, trial, self.held_shear(old, trial).norm());
         let mut plane = *old;
         let Some(found) = opening.solve() else {
             plane.failed = true;
@@ -314,8 +476,21 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         };
         plane.opening = found;
         plane.softened = (found / self.length()).max(old.softened);
-        plane.slip = slide(old, trial, opening.excess(found).1).into();
+        plane.slip = slide(old, trial, opening.kept(found).0 * opening.shear).into();
         plane
+    }
+
+    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3] {
+        let normal = new.normal();
+        if new.failed {
+            let rate = self.contact_rate(old, new, trial);
+            let row = |i: usize| Sym::dyad_of(&rate.row(i).transpose(), &normal);
+            return [row(0), row(1), row(2)];
+        }
+        if new.opening == old.opening && new.slip == old.slip {
+            return [Sym::ZERO; 3];
+        }
+        self.flow_rate(old, new, trial)
     }
 
     fn stored(&self, _elastic: &crate::Isotropic, _plane: &Plane) -> f64 {
@@ -339,15 +514,7 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
             let before = way.dot(&self.where_slip_starts(old, trial)).max(0.0);
             return 0.5 * (before + shear) * slid;
         }
-        let opening = Opening {
-            law: self,
-            rest: OnPlane::new(&trial.stress, &normal),
-            old_opening: old.opening,
-            shear: shear + trial.shear_stiffness(new) * slid,
-            normal_stiffness: trial.normal_stiffness(new),
-            lateral_stiffness: trial.elastic.lambda() / new.width,
-            shear_stiffness: trial.shear_stiffness(new),
-        };
+        let opening = self.opening(old, trial, shear + trial.shear_stiffness(new) * slid);
         let full = self.surface.strength * self.left(old.opening);
         let (lacking, sheared) = if old.moving {
             let traction = Vector3::from(old.traction);
@@ -355,9 +522,14 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
             (full - along, (traction - normal * along).norm())
         } else {
             let start = opening.on_plane(old.opening);
-            let tension = self.surface.tension(&start, self.left(old.opening));
+            // What it carried without moving it can carry, whatever the stress along it has become.
+            let carried = normal.dot(&Vector3::from(old.traction));
+            let tension = self
+                .surface
+                .tension(&start, self.left(old.opening))
+                .max(carried);
             let lacking = (full - start.normal).max(full - tension);
-            (lacking, opening.excess(old.opening).1)
+            (lacking, opening.shear_at_start())
         };
         let carried = if new.failed {
             0.0

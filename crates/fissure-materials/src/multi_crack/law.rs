@@ -25,11 +25,6 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
         self.decohesion.check()?;
-        if matches!(self.planes, Planes::Multiple(_)) {
-            let valid = N < 2 || self.decohesion.several();
-            let rule = "1 for this decohesion";
-            check_parameter(NAME, "number of planes", N as f64, valid, rule)?;
-        }
         if let Planes::Multiple(Some(angle)) = self.planes {
             let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
             check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;
@@ -112,28 +107,21 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         let mut tangent = None;
         if with_tangent {
             let step = law.step::<true>(&flat.f_new, &flat.band, old)?;
-            let modulus = law.modulus(&step, old);
-            let spatial = |modulus| step.kinematics.spatial_tangent(&step.biot_stress, &modulus);
-            tangent = modulus.map(spatial);
+            tangent = law.tangent_of::<true>(&step, &flat.band, old);
         }
         let measure = Thickening::Stretch;
         thinned(&flat, response, tangent, &self.elastic, measure).map(Some)
     }
 
-    /// Analytic while no plane starts and none turns, for planes whose return has a derivative;
-    /// else the trait's difference quotient.
+    /// Analytic but for the turning of planes that start or follow the strain (see `tangent.rs`); the trait's difference
+    /// quotient where the sweeps over planes do not converge.
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
         let law = self.scaled(&increment.external.scale);
         let step = law.step::<false>(&increment.f_new, &increment.band, old)?;
-        match law.modulus(&step, old) {
-            Some(modulus) => Ok(step.kinematics.spatial_tangent(&step.biot_stress, &modulus)),
+        match law.tangent_of::<false>(&step, &increment.band, old) {
+            Some(tangent) => Ok(tangent),
             None => difference_tangent(self, increment, old, DIFFERENCE_STEP),
         }
-    }
-
-    fn has_own_tangent(&self, old: &Self::State, new: &Self::State) -> bool {
-        let kept = new.planes().len() == old.planes().len() && self.planes != Planes::Rotating;
-        new.planes().is_empty() || kept
     }
 
     fn values(&self, state: &Self::State, out: &mut [f64]) {

@@ -43,6 +43,7 @@ mod state;
 mod tangent;
 #[cfg(test)]
 mod tests;
+mod turn;
 
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
@@ -52,12 +53,13 @@ pub use mode_one::{ModeOne, Shear, Unloading};
 pub use state::{MultiCrackState, Plane};
 
 use crate::{
-    Biot, Increment, Initiation, Isotropic, Material, MaterialError, Response, Scale,
+    Biot, Increment, Initiation, Isotropic, MaterialError, Response, Scale,
     error::{check_below, check_scaled_toughness},
     sound::sound,
+    turning::{Turning, width_rate},
 };
 use relax::{elastic_strain, relax};
-use tangent::coupled;
+use tangent::{Turn, coupled, given, stress_rate};
 
 const NAME: &str = "elastic-decohesive law with several planes";
 
@@ -272,18 +274,124 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         }
     }
 
-    /// `∂T/∂E`, if it is at hand.
-    fn modulus(&self, step: &Step<N>, old: &MultiCrackState<N>) -> Option<Tangent> {
-        let planes = step.state.planes();
-        if !self.has_own_tangent(old, &step.state) {
-            return None;
+    /// The spatial tangent at a thickness that stays; `None` if the planes' does not converge.
+    fn tangent_of<const SHEET: bool>(
+        &self,
+        step: &Step<N>,
+        band: &Band,
+        old: &MultiCrackState<N>,
+    ) -> Option<Tangent> {
+        let kinematics = &step.kinematics;
+        let started = step.state.planes().len() > old.planes().len();
+        if !started && self.planes != Planes::Rotating {
+            let rates = self.release_rates(&step.start, &step.state, &step.biot_stress);
+            let modulus = coupled(&self.elastic, step.state.planes(), &rates)?;
+            return Some(kinematics.spatial_tangent(&step.biot_stress, &modulus));
         }
+        let rate = |strain_rate: &Sym, rotation_rate: &Matrix3<f64>| {
+            let rate = self.turning_rate::<SHEET>(step, band, old, strain_rate, rotation_rate);
+            rate.unwrap_or(Sym::ZERO * f64::NAN)
+        };
+        let tangent = kinematics.conjugate_tangent(&step.biot_stress, rate);
+        tangent.is_finite().then_some(tangent)
+    }
+
+    fn release_rates(
+        &self,
+        start: &MultiCrackState<N>,
+        state: &MultiCrackState<N>,
+        stress: &Sym,
+    ) -> [[Sym; 3]; N] {
         let mut rates = [[Sym::ZERO; 3]; N];
-        for ((rate, start), plane) in rates.iter_mut().zip(step.start.planes()).zip(planes) {
-            let trial = self.trial(&step.biot_stress, plane);
-            *rate = self.decohesion.release_rate(start, plane, &trial)?;
+        let planes = start.planes().iter().zip(state.planes());
+        for (rate, (start, plane)) in rates.iter_mut().zip(planes) {
+            *rate = self
+                .decohesion
+                .release_rate(start, plane, &self.trial(stress, plane));
         }
-        coupled(&self.elastic, planes, &rates)
+        rates
+    }
+
+    /// Rate of the stress in a step in which planes turn, with those of strain and rotation: the step again, plane by plane as
+    /// they start, since each turns with the stress that those before it have left.
+    fn turning_rate<const SHEET: bool>(
+        &self,
+        step: &Step<N>,
+        band: &Band,
+        old: &MultiCrackState<N>,
+        strain_rate: &Sym,
+        rotation_rate: &Matrix3<f64>,
+    ) -> Option<Sym> {
+        let mut start = MultiCrackState::from_planes(&step.start.planes()[..old.planes().len()]);
+        let mut state = start;
+        let mut turns = [Turn::default(); N];
+        let rotating = self.planes == Planes::Rotating;
+        let follow =
+            |normal: &Vector3<f64>| Turning::principal(&step.strain, normal).rate(strain_rate);
+        if rotating {
+            for (turn, plane) in turns.iter_mut().zip(start.planes()) {
+                turn.normal = follow(&plane.normal());
+            }
+        }
+        loop {
+            let planes = state.planes_mut();
+            let mut stress = relax(
+                &self.decohesion,
+                &self.elastic,
+                &step.strain,
+                start.planes(),
+                planes,
+            )
+            .ok()?;
+            let rates = self.release_rates(&start, &state, &stress);
+            let mut besides = [Sym::ZERO; N];
+            for (index, plane) in start.planes().iter().enumerate() {
+                let trial = self.trial(&stress, &state.planes()[index]);
+                besides[index] = given(&self.decohesion, plane, &turns[index], &trial);
+            }
+            let planes = state.planes();
+            let mut rate = stress_rate(&self.elastic, planes, &rates, &besides, strain_rate)?;
+            let count = planes.len();
+            let Some(plane) = step.start.planes().get(count) else {
+                return Some(rate);
+            };
+            let normal = plane.normal();
+            let turn = if rotating {
+                follow(&normal)
+            } else {
+                if SHEET {
+                    (stress.mandel[2], rate.mandel[2]) = (0.0, 0.0);
+                }
+                let rotation = &step.kinematics.rotation;
+                let threshold = |plane: &Plane, turn: &Vector3<f64>| {
+                    let axis = plane.normal();
+                    let at = |part: f64| {
+                        let spatial = (rotation + rotation_rate * part) * (axis + turn * part);
+                        self.threshold(band.width(&spatial.normalize()).max(plane.width))
+                    };
+                    let part = 1e-6 / (rotation_rate.norm() + turn.norm() + f64::MIN_POSITIVE);
+                    [at(0.0), (at(part) - at(-part)) / (2.0 * part)]
+                };
+                let turned = turns.map(|turn| turn.normal);
+                let stresses = [&stress, &rate];
+                start::normal_rate(
+                    &self.decohesion,
+                    stresses,
+                    planes,
+                    &turned[..count],
+                    &normal,
+                    threshold,
+                )
+            };
+            let spatial = step.kinematics.rotation * normal;
+            let turning = rotation_rate * normal + step.kinematics.rotation * turn;
+            turns[count] = Turn {
+                normal: turn,
+                width: width_rate(band, &spatial, &turning),
+            };
+            start.push(*plane);
+            state.push(*plane);
+        }
     }
 }
 

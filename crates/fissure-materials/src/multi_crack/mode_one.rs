@@ -20,6 +20,7 @@ use crate::{
     Initiation, Isotropic, MaterialError, Scale, Softening, check_parameter,
     criteria::{FailureCriterion, Rankine},
     softening::{Linear, opening},
+    turning::Turning,
 };
 
 const NAME: &str = "mode-I decohesion";
@@ -227,6 +228,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         Rankine { strength }.initiation(stress)
     }
 
+    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+        Turning::principal(stress, normal).rate(stress_rate)
+    }
+
     fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
         // All of it shrunk to the surface: as on a proportional path.
         let traction = stress.traction(normal);
@@ -258,7 +263,7 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         plane
     }
 
-    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> Option<[Sym; 3]> {
+    fn release_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3] {
         let normal = new.normal();
         let opening = self.opening_rate(old, new, trial);
         let stiffness = trial.normal_stiffness(new);
@@ -286,7 +291,7 @@ impl<S: Softening> Decohesion for ModeOne<S> {
             }
         }
         let row = |i: usize| Sym::dyad_of(&rate.row(i).transpose(), &normal);
-        Some([row(0), row(1), row(2)])
+        [row(0), row(1), row(2)]
     }
 
     fn stored(&self, elastic: &Isotropic, plane: &Plane) -> f64 {

@@ -17,6 +17,9 @@ use crate::{Isotropic, MaterialError};
 /// Returns of single planes allowed in a step.
 const MAXIMAL_RETURNS: usize = 2000;
 
+/// As many where the planes do not descend a potential, before their returns are kept as they come.
+const RETURNS_WITHOUT_POTENTIAL: usize = 600;
+
 /// Returns of single planes between two of all at once.
 const RETURNS_BETWEEN_JUMPS: usize = 40;
 
@@ -46,41 +49,34 @@ pub(super) fn relax<D: Decohesion>(
     old: &[Plane],
     planes: &mut [Plane],
 ) -> Result<Sym, MaterialError> {
-    let point = Point {
+    let mut point = Point {
         decohesion,
         elastic,
         strain,
-        old,
+        old: Some(old),
     };
-    let mut residual = f64::INFINITY;
-    for count in 1..=MAXIMAL_RETURNS {
-        let stress = stress_of(elastic, strain, planes);
-        // Of the planes as they are now, so that a step that ends here is not taken up again by a
-        // zero increment.
-        let tolerance = tolerance(decohesion, elastic, strain, planes);
-        let chosen = point.next(planes, &stress, tolerance);
-        residual = chosen.as_ref().map_or(0.0, |(_, _, change)| *change);
-        // NaN goes on to the end, as an error.
-        if residual <= tolerance {
-            for (plane, start) in planes.iter_mut().zip(old) {
-                plane.traction = stress.traction(&plane.normal()).into();
-                let moved = plane.opening != start.opening || plane.slip != start.slip;
-                plane.moving = moved || (start.moving && plane.traction == start.traction);
-            }
-            return Ok(stress);
-        }
-        if let Some((index, next, _)) = chosen {
-            planes[index] = next;
-        }
-        if count % RETURNS_BETWEEN_JUMPS == 0 && planes.len() > 1 {
-            point.jump_ahead(planes, tolerance);
-        }
+    let returns = if decohesion.associated() {
+        MAXIMAL_RETURNS
+    } else {
+        RETURNS_WITHOUT_POTENTIAL
+    };
+    let mut left = point.returned(planes, returns);
+    if left.is_err() && planes.len() > 1 {
+        planes.copy_from_slice(old);
+        point.old = None;
+        left = point.returned(planes, MAXIMAL_RETURNS);
     }
-    Err(MaterialError::NoConvergence {
+    let stress = left.map_err(|residual| MaterialError::NoConvergence {
         law: NAME,
         iterations: MAXIMAL_RETURNS,
         residual: residual / decohesion.strength(),
-    })
+    })?;
+    for (plane, start) in planes.iter_mut().zip(old) {
+        plane.traction = stress.traction(&plane.normal()).into();
+        let moved = plane.opening != start.opening || plane.slip != start.slip;
+        plane.moving = moved || (start.moving && plane.traction == start.traction);
+    }
+    Ok(stress)
 }
 
 /// What does not change while the planes relax.
@@ -88,10 +84,41 @@ struct Point<'a, D> {
     decohesion: &'a D,
     elastic: &'a Isotropic,
     strain: &'a Sym,
-    old: &'a [Plane],
+    /// Where each plane starts from; `None`: from where it is.
+    old: Option<&'a [Plane]>,
 }
 
 impl<D: Decohesion> Point<'_, D> {
+    /// Returns planes until none would change its traction by more than round-off; the stress then, or what is left to
+    /// do, Pa.
+    fn returned(&self, planes: &mut [Plane], returns: usize) -> Result<Sym, f64> {
+        let mut residual = f64::INFINITY;
+        for count in 1..=returns {
+            let stress = stress_of(self.elastic, self.strain, planes);
+            // Of the planes as they are now, so that a step that ends here is not taken up again by a
+            // zero increment.
+            let tolerance = tolerance(self.decohesion, self.elastic, self.strain, planes);
+            let chosen = self.next(planes, &stress, tolerance);
+            residual = chosen.as_ref().map_or(0.0, |(_, _, change)| *change);
+            // NaN goes on to the end, as an error.
+            if residual <= tolerance {
+                return Ok(stress);
+            }
+            if let Some((index, next, _)) = chosen {
+                planes[index] = next;
+            }
+            if count % RETURNS_BETWEEN_JUMPS == 0 && planes.len() > 1 {
+                self.jump_ahead(planes, tolerance);
+            }
+        }
+        Err(residual)
+    }
+
+    /// Where a plane starts from.
+    fn start(&self, planes: &[Plane], index: usize) -> Plane {
+        self.old.map_or(planes[index], |old| old[index])
+    }
+
     /// What a plane sees. A plane that is alone sees the strain's stress, to the last bit.
     fn trial(&self, planes: &[Plane], index: usize, stress: &Sym, tolerance: f64) -> Trial {
         let stress = match planes {
@@ -109,9 +136,9 @@ impl<D: Decohesion> Point<'_, D> {
     /// how much its traction would change, Pa.
     fn next(&self, planes: &[Plane], stress: &Sym, tolerance: f64) -> Option<(usize, Plane, f64)> {
         let mut chosen: Option<(usize, Plane, f64)> = None;
-        for (index, (plane, start)) in planes.iter().zip(self.old).enumerate() {
+        for (index, plane) in planes.iter().enumerate() {
             let trial = self.trial(planes, index, stress, tolerance);
-            let next = self.decohesion.release(start, &trial);
+            let next = self.decohesion.release(&self.start(planes, index), &trial);
             let change = (next.jump() - plane.jump()).norm() * trial.normal_stiffness(plane);
             let leads = chosen.as_ref().is_none_or(|(best, _, largest)| {
                 let first = order(&plane.normal) > order(&planes[*best].normal);
@@ -133,12 +160,13 @@ impl<D: Decohesion> Point<'_, D> {
         if count > MAXIMAL_JUMP {
             return None;
         }
+        let old = self.old?;
         let (_, _, before) = self.next(planes, &stress, tolerance)?;
         let mut system = Dense::new(3 * count);
-        for (row, start) in self.old.iter().enumerate() {
+        for (row, start) in old.iter().enumerate() {
             let trial = self.trial(planes, row, &stress, tolerance);
             let next = self.decohesion.release(start, &trial);
-            let rate = self.decohesion.release_rate(start, &next, &trial)?;
+            let rate = self.decohesion.release_rate(start, &next, &trial);
             let left = next.jump() - planes[row].jump();
             for axis in 0..3 {
                 let line = 3 * row + axis;
@@ -171,7 +199,7 @@ impl<D: Decohesion> Point<'_, D> {
         let landed = &mut landed[..count];
         for (index, plane) in landed.iter_mut().enumerate() {
             let trial = self.trial(ahead, index, &stress, tolerance);
-            *plane = self.decohesion.release(&self.old[index], &trial);
+            *plane = self.decohesion.release(&old[index], &trial);
         }
         let stress = stress_of(self.elastic, self.strain, landed);
         let (_, _, after) = self.next(landed, &stress, tolerance)?;

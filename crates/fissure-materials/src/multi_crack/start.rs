@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use fissure_tensor::Vector3;
 
-use super::{Decohesion, Plane};
+use super::{Decohesion, Plane, turn::on_cone_rate};
 use crate::Initiation;
 use fissure_tensor::Sym;
 
@@ -74,6 +74,36 @@ pub(super) fn initiation<D: Decohesion>(
         }
     }
     best
+}
+
+/// Change of the normal that [`initiation`] gave with the stress, the turning of the planes, and the `sin²` of the
+/// threshold angle, given as value and rate for each.
+pub(super) fn normal_rate<D: Decohesion>(
+    decohesion: &D,
+    stress: [&Sym; 2],
+    planes: &[Plane],
+    rates: &[Vector3<f64>],
+    normal: &Vector3<f64>,
+    threshold: impl Fn(&Plane, &Vector3<f64>) -> [f64; 2],
+) -> Vector3<f64> {
+    if decohesion.initiation(stress[0]).normal == *normal {
+        return decohesion.normal_rate(stress[0], stress[1], normal);
+    }
+    // The cone that it is on.
+    let mut best = (f64::INFINITY, Vector3::zeros());
+    for (plane, rate) in planes.iter().zip(rates) {
+        let axis = plane.normal();
+        let [sine_squared, sine_squared_rate] = threshold(plane, rate);
+        let gap = (normal.cross(&axis).norm_squared() - sine_squared).abs();
+        if gap < best.0 {
+            let axes = [&axis, rate];
+            best = (
+                gap,
+                on_cone_rate(decohesion, stress, axes, sine_squared_rate, normal),
+            );
+        }
+    }
+    best.1
 }
 
 /// The largest value round a cone: a scan, and steps to either side that are halved.

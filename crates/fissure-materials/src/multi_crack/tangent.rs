@@ -4,10 +4,13 @@
 //! stress without its own jump. With `dT = C:(dε − Σ dε_k)` that is a linear system for the `du_k`,
 //! solved for each of the six strains plane by plane, in the way in which the planes themselves
 //! were returned: where that converged, this does.
+//!
+//! A plane that starts in the step, or follows the strain, also turns, and its band with it: its strain then changes by
+//! `dε_j` more at the same stress (`given`), a difference quotient of its closed-form return.
 
 use fissure_tensor::{Matrix6, Sym, Tangent, Vector3, Vector6};
 
-use super::Plane;
+use super::{Decohesion, Plane, Trial, turn::slope};
 use crate::Isotropic;
 
 /// Sweeps over the planes allowed.
@@ -23,7 +26,7 @@ pub(super) fn coupled<const N: usize>(
     for (index, column) in columns.iter_mut().enumerate() {
         let mut strain = Sym::ZERO;
         strain.mandel[index] = 1.0;
-        *column = stress_rate(elastic, planes, rates, &strain)?;
+        *column = stress_rate(elastic, planes, rates, &[Sym::ZERO; N], &strain)?;
     }
     let mut matrix = Matrix6::zeros();
     for (index, column) in columns.iter().enumerate() {
@@ -32,11 +35,45 @@ pub(super) fn coupled<const N: usize>(
     Some(Tangent(matrix))
 }
 
-/// `dT` for a change of strain.
-fn stress_rate<const N: usize>(
+/// How a plane turns: the rates of its normal and of the width of its band, m.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Turn {
+    pub normal: Vector3<f64>,
+    pub width: f64,
+}
+
+/// Change of the strain of a plane that turns, at the same stress without its jump.
+pub(super) fn given<D: Decohesion>(
+    decohesion: &D,
+    start: &Plane,
+    turn: &Turn,
+    trial: &Trial,
+) -> Sym {
+    let rate = turn.normal.norm() + (turn.width / start.width).abs();
+    if rate == 0.0 {
+        return Sym::ZERO;
+    }
+    // The return has kinks, next to which a step may end.
+    let scale = 1e-2 / rate;
+    let turned = |part: f64| {
+        let plane = Plane {
+            normal: (start.normal() + turn.normal * (part * scale))
+                .normalize()
+                .into(),
+            width: start.width + turn.width * (part * scale),
+            ..*start
+        };
+        decohesion.release(&plane, trial).strain()
+    };
+    slope(turned) * (1.0 / scale)
+}
+
+/// `dT` for a change of strain, and of the strains of the planes besides.
+pub(super) fn stress_rate<const N: usize>(
     elastic: &Isotropic,
     planes: &[Plane],
     rates: &[[Sym; 3]; N],
+    given: &[Sym; N],
     strain: &Sym,
 ) -> Option<Sym> {
     let mut parts = [Sym::ZERO; N];
@@ -44,10 +81,10 @@ fn stress_rate<const N: usize>(
     let tolerance = 4.0 * f64::EPSILON * stress.norm();
     for _ in 0..MAXIMAL_SWEEPS {
         let mut moved: f64 = 0.0;
-        for ((part, plane), rate) in parts.iter_mut().zip(planes).zip(rates) {
+        for (((part, plane), rate), given) in parts.iter_mut().zip(planes).zip(rates).zip(given) {
             let alone = stress + elastic.stress(part);
             let jump = Vector3::from(rate.map(|row| row.dot(&alone)));
-            let next = Sym::dyad_of(&jump, &plane.normal()) * (1.0 / plane.width);
+            let next = Sym::dyad_of(&jump, &plane.normal()) * (1.0 / plane.width) + *given;
             let change = elastic.stress(&(next - *part));
             moved = moved.max(change.norm());
             stress -= change;

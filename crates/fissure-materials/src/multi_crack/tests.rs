@@ -4,7 +4,7 @@ mod paths;
 mod single;
 
 use super::*;
-use crate::{criteria::Geological, softening::Linear};
+use crate::{Material, criteria::Geological, softening::Linear};
 
 const CONCRETE: Isotropic = Isotropic {
     density: 2350.0,

@@ -120,43 +120,57 @@ fn threshold_is_the_bound_of_uniqueness() {
     }
 }
 
-/// The analytic tangent of planes that move together, away from kinks, within 1e-8 |C| of Richardson
-/// differences with a step of 1e-5 of the failure strain (P3).
+/// How far the tangent at the end of a walk is from Richardson differences with a step of 1e-5 of the failure strain
+/// u₀/L = 4.5e-3, over the stiffness or its largest entry.
+fn tangent_gap<M: Material>(law: &M, points: &[Sym], last: &Sym) -> Result<f64, MaterialError> {
+    let (mut state, mut from) = (law.initial(), Sym::ZERO);
+    for to in points {
+        state = law.update(&step_to(&from, to, BAND), &state)?.state;
+        from = *to;
+    }
+    let step = step_to(&from, last, BAND);
+    let tangent = law.tangent(&step, &state)?;
+    let difference = |h: f64| difference_tangent(law, &step, &state, h);
+    let (coarse, fine) = (difference(4.5e-8)?, difference(2.25e-8)?);
+    let richardson = fine * (4.0 / 3.0) - coarse * (1.0 / 3.0);
+    Ok((tangent - richardson).max_abs() / CONCRETE.p_wave_modulus().max(tangent.max_abs()))
+}
+
+/// The tangent of planes that move together, start, or turn, within 1e-8 |C| of differences (P3): going on, and with a
+/// pull in a new direction that starts further planes.
 #[test]
 fn tangent_of_several_planes_is_that_of_differences() -> Result<(), MaterialError> {
     let mut random = Random::new(3);
     let (mut checked, mut kinks) = (0, 0);
-    for index in 0..60 {
+    for index in 0..120 {
         let (unloading, shear) = CHOICES[index % 6];
-        let law = law::<6>(unloading, shear, Planes::Multiple(None));
-        let (mut state, points) = (law.initial(), walk(&mut random, false));
-        let mut from = Sym::ZERO;
-        for to in &points {
-            state = law.update(&step_to(&from, to, BAND), &state)?.state;
-            from = *to;
-        }
-        let step = step_to(&from, &(from * 1.02), BAND);
-        let end = law.step::<false>(&step.f_new, &BAND, &state)?;
-        let Some(modulus) = law.modulus(&end, &state) else {
-            continue;
+        let points = walk(&mut random, false);
+        let last = if index % 2 == 0 {
+            points[points.len() - 1] * 1.02
+        } else {
+            Sym::dyad(&random.direction()) * random.log_uniform(2e-4, 2e-3)
         };
-        let analytic = end.kinematics.spatial_tangent(&end.biot_stress, &modulus);
-        let difference = |h: f64| difference_tangent(&law, &step, &state, h);
-        // 1e-5 of the failure strain u₀/L = 4.5e-3.
-        let (coarse, fine) = (difference(4.5e-8)?, difference(2.25e-8)?);
-        let richardson = fine * (4.0 / 3.0) - coarse * (1.0 / 3.0);
-        let gap = (analytic - richardson).max_abs() / CONCRETE.p_wave_modulus();
+        let several = Planes::Multiple(None);
+        let gap = match index % 10 {
+            0..=6 => tangent_gap(&law::<6>(unloading, shear, several), &points, &last)?,
+            7 => tangent_gap(
+                &law::<1>(unloading, shear, Planes::Rotating),
+                &points,
+                &last,
+            )?,
+            8 => tangent_gap(&geological::<1>(Some(0.6), Planes::Fixed), &points, &last)?,
+            _ => tangent_gap(&geological::<6>(None, several), &points, &last)?,
+        };
         let round_off = 3e-16 / 4.5e-8 * 10.0;
         if gap < 1e-8 + round_off {
             checked += 1;
         } else {
             kinks += 1;
+            println!("{index}: {gap:e}");
         }
     }
-    assert!(
-        checked >= 40 && kinks <= 4,
-        "{checked} agree, {kinks} do not"
-    );
+    println!("{checked} agree, {kinks} do not");
+    assert!(kinks <= 6, "{checked} agree, {kinks} do not");
     Ok(())
 }
 
@@ -229,7 +243,7 @@ fn any_step_of_geological_flow_ends() {
     for friction in [None, Some(0.6)] {
         let one = fuzz(&geological::<1>(friction, Planes::Fixed), UPDATES, 5);
         println!("geological {friction:?}: {one:?}");
-        let several = geological::<6>(friction, Planes::Multiple(None));
-        assert!(several.check().is_err());
+        let several = fuzz(&geological::<6>(friction, Planes::Multiple(None)), 300, 6);
+        println!("several {several:?}");
     }
 }
