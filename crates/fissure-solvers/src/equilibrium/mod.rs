@@ -9,6 +9,7 @@
 pub(crate) mod averages;
 pub(crate) mod balance;
 pub(crate) mod choice;
+pub(crate) mod divided;
 pub(crate) mod failure;
 pub(crate) mod freedoms;
 pub(crate) mod kernel;

@@ -14,6 +14,7 @@
 mod border;
 mod control;
 mod embedded;
+mod embedded_crack;
 mod faces;
 mod newton;
 mod path;
@@ -21,6 +22,6 @@ mod settings;
 mod step;
 mod trial;
 
-pub use embedded::{EmbeddedCrack, EmbeddedForm, EmbeddedJump};
+pub use embedded_crack::{EmbeddedCrack, EmbeddedForm, EmbeddedJump};
 pub use settings::{Averaging, LoadControl, QuasiStaticSettings};
 pub use step::QuasiStatic;

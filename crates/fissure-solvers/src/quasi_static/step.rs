@@ -8,7 +8,8 @@ use fissure_scene::{
 };
 use nalgebra::SVector;
 
-use super::embedded::{Embedded, EmbeddedCrack, EmbeddedJump};
+use super::embedded::Embedded;
+use super::embedded_crack::{EmbeddedCrack, EmbeddedJump};
 use super::faces::Faces;
 use super::settings::{Averaging, QuasiStaticSettings};
 use super::trial::Equilibrium;
