@@ -267,6 +267,9 @@ fn refused_where_none_exists<M: Material>(law: M) -> Result<usize, MaterialError
         let strain = random.strain_direction(true) * random.log_uniform(0.1, 20.0);
         let (xx, yy, xy) = (strain.xx().abs(), strain.yy().abs(), strain.xy());
         let step = pull.with_end(in_plane(xx, xy, xy, yy));
+        if step.jacobian() <= 0.0 {
+            continue;
+        }
         match sheet.update(&step, &old) {
             Ok(_) => {}
             Err(MaterialError::Deformation { determinant }) if determinant <= 0.0 => {
