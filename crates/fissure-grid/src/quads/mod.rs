@@ -10,9 +10,10 @@
 //! *Inverse* [eqs 4.4.8-4.4.9]: Newton's method from the centre, `J Δ(ξ, η) = x_p − x(ξ, η)`, until nothing is gained. Where a
 //! step gains nothing before the point is found, ξ is bracketed by the signs on two opposite faces.
 //!
-//! *Search* [page after eq. 4.4.1]: from the element a point was in last, across the face that the point is beyond, by a
-//! table of neighbours. Without such an element, or where the way leads out of the mesh, among the elements listed for the
-//! point's cell of a coarse lattice.
+//! *Search* [text after eq. 4.4.1]: from an element near by, across the face that the point is farthest beyond, by a table of
+//! neighbours. The document starts from the element that the particle was in last; here it is that of the particle before it
+//! in its patch, so that nothing is kept. Without such an element, or where the way leads out of the mesh, among the elements
+//! listed for the point's cell of a coarse lattice.
 //!
 //! *Ownership*: on which side of a face a point lies is decided exactly (Shewchuk's predicate on the two nodes of the face),
 //! so both neighbours agree. A point on a face or a node belongs to the element of the lowest number that has it.

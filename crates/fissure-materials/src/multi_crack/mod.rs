@@ -2,7 +2,7 @@
 //!
 //! `ε = εᵉ + Σ_j sym(u_j ⊗ n_j)/L_j` (4.5.15), `T = C:εᵉ`, with the Biot strain, so that the law is
 //! objective. What starts, opens and closes a plane is its [`Decohesion`]: [`ModeOne`] or
-//! [`GeologicalFlow`] (one plane only). All planes are returned together, until every `F_j` is within round-off of
+//! [`GeologicalFlow`]. All planes are returned together, until every `F_j` is within round-off of
 //! zero or below; the document's single pass over the planes leaves earlier ones violated by later.
 //!
 //! # When the coupled return is unique, and the threshold angle
@@ -29,7 +29,8 @@
 //! [`Planes::Fixed`] keeps the first plane alone. [`Planes::Multiple`] adds planes. [`Planes::Rotating`]
 //! is one plane whose normal is the first principal direction of the strain in every step: its
 //! traction has no shear by construction; where two principal strains cross, it changes direction
-//! at once and the response is steep.
+//! at once and the response is steep. Its band is that of its first direction: one that followed would change the
+//! strain `u/L` at the same opening, work that the softening curve does not know of.
 
 mod cracking;
 mod decohesion;

@@ -8,6 +8,10 @@
 //! in that step. For opening alone every return lowers the incremental potential
 //! `½ (ε − Σ ε_j):C:(ε − Σ ε_j) + Σ (G/L_j) area(s_j)`, so the sequence ends in a local minimum of
 //! it, and where the minimum is unique (see the theory of the law) in that one.
+//!
+//! Flow that does not follow from a potential may run in circles, one return undoing another. Then the planes start again,
+//! and each return is kept as it comes: none gives back what it took in the step. Every one dissipates what the point has
+//! stored, so they have to end; those that take too long are an error.
 
 use fissure_tensor::{Sym, Vector3};
 

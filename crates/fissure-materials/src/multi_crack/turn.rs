@@ -11,7 +11,7 @@ use super::Decohesion;
 const STEP: f64 = 1e-3;
 
 /// Where `F` is largest over all directions.
-pub(super) fn maximum_rate<D: Decohesion + ?Sized>(
+pub(super) fn maximum_rate<D: Decohesion>(
     decohesion: &D,
     stress: &Sym,
     stress_rate: &Sym,

@@ -250,3 +250,54 @@ fn a_negative_poisson_ratio_is_searched_for() -> Result<(), MaterialError> {
     assert!(state.inner.width == 0.0 && state.thickening < 0.0);
     Ok(())
 }
+
+/// A sheet is refused as too thin only where the solid is pulled across at every thickness: the stress is linear in
+/// the strain, and no stretch is left for Poisson's contraction.
+fn refused_where_none_exists<M: Material>(law: M) -> Result<usize, MaterialError> {
+    let sheet = PlaneStress(law);
+    let mut random = Random::new(33).in_plane(true);
+    let mut refused = 0;
+    for _ in 0..400 {
+        // A crack across x, failed.
+        let pull = Increment {
+            band: Band::Uniform(0.01),
+            ..Increment::to(in_plane(0.3, 0.0, 0.0, 0.0))
+        };
+        let old = sheet.update(&pull, &sheet.initial())?.state;
+        let strain = random.strain_direction(true) * random.log_uniform(0.1, 20.0);
+        let (xx, yy, xy) = (strain.xx().abs(), strain.yy().abs(), strain.xy());
+        let step = pull.with_end(in_plane(xx, xy, xy, yy));
+        if step.jacobian() <= 0.0 {
+            continue;
+        }
+        match sheet.update(&step, &old) {
+            Ok(_) => {}
+            Err(MaterialError::Deformation { determinant }) if determinant <= 0.0 => {
+                refused += 1;
+                for thickness in [1e-6, 1e-3, 0.1, 0.3, 0.6, 1.0] {
+                    let end = step.with_end(with_thickness(&step.f_new, thickness - 1.0));
+                    let across = sheet.0.update(&end, &old.inner)?.stress.zz();
+                    assert!(across > 0.0, "{across:e} at {thickness}, {end:?}");
+                }
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(refused)
+}
+
+#[test]
+fn a_sheet_is_too_thin_only_where_no_thickness_is_left() -> Result<(), MaterialError> {
+    let mode = |strength| crate::Mode {
+        strength,
+        toughness: 60.0,
+        softening: Linear,
+    };
+    let damage = crate::AnisotropicDamage::new(ELASTIC, mode(3e6), mode(2e6));
+    let counts = [
+        refused_where_none_exists(cohesive())?,
+        refused_where_none_exists(damage)?,
+    ];
+    assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
+    Ok(())
+}

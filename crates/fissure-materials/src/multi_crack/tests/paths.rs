@@ -120,6 +120,30 @@ fn threshold_is_the_bound_of_uniqueness() {
     }
 }
 
+/// P17 for geological flow, whose planes may run in circles: the rule of selection does not see the storage order.
+#[test]
+fn storage_order_does_not_matter_to_geological_flow() -> Result<(), MaterialError> {
+    let mut random = Random::new(18);
+    let mut most = 0;
+    for _ in 0..40 {
+        let law = geological::<6>(None, Planes::Multiple(None));
+        let (mut state, points) = (law.initial(), walk(&mut random, false));
+        for pair in points.windows(2) {
+            let step = step_to(&pair[0], &pair[1], BAND);
+            let mut reversed: Vec<Plane> = state.planes().to_vec();
+            reversed.reverse();
+            let other = MultiCrackState::<6>::from_planes(&reversed);
+            let (a, b) = (law.update(&step, &state)?, law.update(&step, &other)?);
+            let gap = (a.stress - b.stress).max_abs();
+            assert!(gap < 1e-7 * 2.7e6, "{gap:e}");
+            state = a.state;
+            most = most.max(state.planes().len());
+        }
+    }
+    assert!(most > 3, "{most}");
+    Ok(())
+}
+
 /// How far the tangent at the end of a walk is from Richardson differences with a step of 1e-5 of the failure strain
 /// u₀/L = 4.5e-3, over the stiffness or its largest entry.
 fn tangent_gap<M: Material>(law: &M, points: &[Sym], last: &Sym) -> Result<f64, MaterialError> {
