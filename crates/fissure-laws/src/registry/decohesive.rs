@@ -178,7 +178,7 @@ pub(super) const ROTATING_PLANE: Entry = Entry {
     name: "mode-one-rotating",
     about: "one failure plane that opens and follows the largest principal strain",
     parameters: MODE_ONE,
-    plane_stress: true,
+    plane_stress: false,
     build: |values, space| cracking(mode_one::<1>(values, Planes::Rotating), space),
 };
 

@@ -60,8 +60,10 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         self.decohesion.isotropic()
     }
 
+    /// Several planes without a potential may end on another branch a hair's breadth away (`relax.rs`).
     fn continuous(&self) -> bool {
-        self.decohesion.continuous()
+        let branches = matches!(self.planes, Planes::Multiple(_)) && !self.decohesion.associated();
+        self.decohesion.continuous() && !branches
     }
 
     fn density(&self) -> f64 {

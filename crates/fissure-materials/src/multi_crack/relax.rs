@@ -21,9 +21,6 @@ use crate::{Isotropic, MaterialError};
 /// Returns of single planes allowed in a step.
 const MAXIMAL_RETURNS: usize = 2000;
 
-/// As many where the planes do not descend a potential, before their returns are kept as they come.
-const RETURNS_WITHOUT_POTENTIAL: usize = 600;
-
 /// Returns of single planes between two of all at once.
 const RETURNS_BETWEEN_JUMPS: usize = 40;
 
@@ -59,16 +56,11 @@ pub(super) fn relax<D: Decohesion>(
         strain,
         old: Some(old),
     };
-    let returns = if decohesion.associated() {
-        MAXIMAL_RETURNS
-    } else {
-        RETURNS_WITHOUT_POTENTIAL
-    };
-    let mut left = point.returned(planes, returns);
+    let mut left = point.returned(planes);
     if left.is_err() && planes.len() > 1 {
         planes.copy_from_slice(old);
         point.old = None;
-        left = point.returned(planes, MAXIMAL_RETURNS);
+        left = point.returned(planes);
     }
     let stress = left.map_err(|residual| MaterialError::NoConvergence {
         law: NAME,
@@ -95,9 +87,9 @@ struct Point<'a, D> {
 impl<D: Decohesion> Point<'_, D> {
     /// Returns planes until none would change its traction by more than round-off; the stress then, or what is left to
     /// do, Pa.
-    fn returned(&self, planes: &mut [Plane], returns: usize) -> Result<Sym, f64> {
+    fn returned(&self, planes: &mut [Plane]) -> Result<Sym, f64> {
         let mut residual = f64::INFINITY;
-        for count in 1..=returns {
+        for count in 1..=MAXIMAL_RETURNS {
             let stress = stress_of(self.elastic, self.strain, planes);
             // Of the planes as they are now, so that a step that ends here is not taken up again by a
             // zero increment.
