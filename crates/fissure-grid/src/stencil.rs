@@ -61,15 +61,15 @@ impl<Eight: Copy, const D: usize> Gathered<Eight, D> {
         [value, slope, arm]: [Eight; 3],
         axis: usize,
     ) {
-        for c in 0..FIELD {
-            self.value[c] = lanes.mul_add(v[c], value, self.value[c]);
+        for (c, v) in v.iter().enumerate() {
+            self.value[c] = lanes.mul_add(*v, value, self.value[c]);
             if G {
                 let sum = &mut self.gradient[axis][c];
-                *sum = lanes.mul_add(v[c], slope, *sum);
+                *sum = lanes.mul_add(*v, slope, *sum);
             }
             if M {
                 let sum = &mut self.moment[axis][c];
-                *sum = lanes.mul_add(v[c], arm, *sum);
+                *sum = lanes.mul_add(*v, arm, *sum);
             }
         }
     }

@@ -82,9 +82,7 @@ pub(crate) fn inverse<L: Lanes, const D: usize>(
 ) -> Matrix<L::Eight> {
     let one = lanes.splat(1.0);
     let mut unit = identity(lanes);
-    for i in 0..D {
-        unit[i] = m[i];
-    }
+    unit[..D].copy_from_slice(&m[..D]);
     // Of a block with a unit beside it.
     let [a, b, c] = unit;
     let over = lanes.div(one, determinant(lanes, &unit));

@@ -11,6 +11,7 @@ mod bonds;
 mod checks;
 mod constraints;
 mod crack_motion;
+#[allow(clippy::needless_range_loop)] // Numbers name the components of matrices.
 mod eight;
 #[cfg(feature = "implicit")]
 mod equilibrium;

@@ -217,11 +217,11 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         let sloped = lanes.load(&gift.sloped[0]);
         let base = sums_entry(self.base(place));
         let sums = &mut sums[base..base + Self::SUMS_SPAN];
-        for i in 0..rolled::<D>(K) {
+        for (i, pairs) in pairs[0].iter().enumerate().take(rolled::<D>(K)) {
             let w0 = self.along[0].values[i][place];
             let mut along_0 = lanes.mul(value, lanes.splat(w0));
             if E {
-                let pair = lanes.pair(&pairs[0][i][place]);
+                let pair = lanes.pair(&pairs[place]);
                 along_0 = lanes.mul_add(sloped, pair, along_0);
             }
             for j in 0..Self::nodes(1) {
@@ -328,10 +328,10 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
     ) {
         let mut pairs = [[[[0.0; 2]; EIGHT]; K]; D];
         if E {
-            for axis in 0..D {
-                for k in 0..K {
-                    let [_, slope, arm] = self.along[axis].at(lanes, k);
-                    pairs[axis][k] = lanes.rows2([arm, slope]);
+            for (pairs, along) in pairs.iter_mut().zip(&self.along) {
+                for (k, pairs) in pairs.iter_mut().enumerate() {
+                    let [_, slope, arm] = along.at(lanes, k);
+                    *pairs = lanes.rows2([arm, slope]);
                 }
             }
         }

@@ -138,11 +138,10 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         new: &mut MotionSlicesMut<'_, D>,
     ) -> Result<(), KernelFailure> {
         let (pass, simd) = (self.pass, self.pass.transfers.simd);
-        let affine = pass.is_affine();
         macro_rules! gather {
-            ($moves:literal, $strains:literal, $gradient:literal, $moment:literal) => {
+            ($gradient:expr, $moment:expr) => {
                 simd.run(
-                    GatherRun::<'_, '_, '_, '_, S, D, $moves, $strains, $gradient, $moment> {
+                    GatherRun::<'_, '_, '_, '_, S, D, { $gradient }, { $moment }> {
                         tile: self,
                         constants,
                         old,
@@ -151,23 +150,13 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
                 )
             };
         }
-        // What is known when this is compiled is not asked for each particle, and sums stay where they are made.
-        let gathered = if !pass.moves {
-            gather!(false, true, true, false)
-        } else if !affine && pass.strains {
-            gather!(true, true, true, false)
-        } else if !affine {
-            gather!(true, false, false, false)
-        } else if S::MOMENTS {
-            if pass.strains {
-                gather!(true, true, true, true)
-            } else {
-                gather!(true, false, false, true)
-            }
-        } else if pass.strains {
-            gather!(true, true, true, false)
+        // Which sums are made is known when this is compiled; all else is asked for eight particles at a time.
+        let gathered = if pass.is_affine() && pass.moves && S::MOMENTS {
+            gather!(true, true)
+        } else if pass.strains || pass.is_affine() {
+            gather!(true, false)
         } else {
-            gather!(true, false, true, false)
+            gather!(false, false)
         };
         gathered.map_err(|row| KernelFailure {
             index: run.start as usize + row,
@@ -181,26 +170,12 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
         old: &MotionSlices<'_, D>,
         new: &MotionSlices<'_, D>,
     ) -> f64 {
-        if self.pass.giving == Giving::MomentumBack {
-            // Given while its weights were at hand.
-            return 0.0;
-        }
-        let simd = self.pass.transfers.simd;
-        if self.pass.is_affine() {
-            simd.run(ScatterRun::<'_, '_, '_, S, D, true> {
-                tile: self,
-                constants,
-                old,
-                new,
-            });
-        } else {
-            simd.run(ScatterRun::<'_, '_, '_, S, D, false> {
-                tile: self,
-                constants,
-                old,
-                new,
-            });
-        }
+        self.pass.transfers.simd.run(ScatterRun {
+            tile: self,
+            constants,
+            old,
+            new,
+        });
         std::mem::take(&mut self.work).iter().sum()
     }
 
@@ -213,34 +188,16 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
     }
 }
 
-/// Gathers and does what the pass is for: `MOVES` and `STRAINS` as in [`Pass`](super::phases::Pass), with sums by
-/// `GRADIENT` and `MOMENT`.
-struct GatherRun<
-    't,
-    'a,
-    'c,
-    'n,
-    S,
-    const D: usize,
-    const MOVES: bool,
-    const STRAINS: bool,
-    const GRADIENT: bool,
-    const MOMENT: bool,
-> {
+/// Gathers, by `GRADIENT` and `MOMENT` too, and does what the pass is for.
+struct GatherRun<'t, 'a, 'c, 'n, S, const D: usize, const GRADIENT: bool, const MOMENT: bool> {
     tile: &'t mut Tile<'a, S, D>,
     constants: &'c RunConstants<'c>,
     old: &'c MotionSlices<'c, D>,
     new: &'c mut MotionSlicesMut<'n, D>,
 }
 
-impl<
-    S: Shape<D>,
-    const D: usize,
-    const MOVES: bool,
-    const STRAINS: bool,
-    const GRADIENT: bool,
-    const MOMENT: bool,
-> SimdTask for GatherRun<'_, '_, '_, '_, S, D, MOVES, STRAINS, GRADIENT, MOMENT>
+impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> SimdTask
+    for GatherRun<'_, '_, '_, '_, S, D, GRADIENT, MOMENT>
 {
     /// The row of a particle that reaches off the grid or its tile's window.
     type Output = Result<(), usize>;
@@ -266,18 +223,18 @@ impl<
                 return Err(outside.unwrap_or(first));
             }
             let gathered = stencils.gather::<L, GRADIENT, MOMENT>(lanes, tile.field);
-            let affine = MOMENT || (GRADIENT && pass.is_affine());
             let mut inside = true;
-            if MOVES {
-                let carried = tile
-                    .carried
-                    .map(|carried| stencils.gather::<L, false, false>(lanes, carried));
-                inside = pass.move_eight(lanes, first, &x, &gathered, carried.as_ref(), old, new);
-                if affine {
+            if pass.moves {
+                // Velocities with an affine part are those of the one field.
+                let carried = if MOMENT { None } else { tile.carried };
+                let carried =
+                    carried.map(|carried| stencils.gather::<L, false, false>(lanes, carried));
+                inside = pass.move_eight(lanes, first, &x, (&gathered, carried.as_ref()), old, new);
+                if GRADIENT && pass.is_affine() {
                     pass.write_affine::<L, MOMENT>(lanes, first, &gathered, new);
                 }
             }
-            if STRAINS {
+            if GRADIENT && pass.strains {
                 let f_old = read_matrices(lanes, f);
                 let strain = pass.strain(lanes, &x, &gathered);
                 if pass.backward {
@@ -295,19 +252,6 @@ impl<
                     &mut new.deformation_gradient[first..],
                 );
             }
-            if MOVES && !STRAINS && pass.giving == Giving::MomentumBack {
-                let affine = affine.then(|| &new.affine[first..]);
-                let mass = &constants.mass[first..];
-                let gift = momentum_of(lanes, mass, &new.velocity[first..], affine);
-                // Whether there is an affine part is known when this is compiled.
-                if MOMENT || GRADIENT {
-                    let gifts = gift.rows::<L, true>(lanes);
-                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), tile.sums);
-                } else {
-                    let gifts = gift.rows::<L, false>(lanes);
-                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), tile.sums);
-                }
-            }
             if !inside {
                 return Err(pass.first_outside(rows, new));
             }
@@ -316,16 +260,14 @@ impl<
     }
 }
 
-struct ScatterRun<'t, 'a, 'c, S, const D: usize, const AFFINE: bool> {
+struct ScatterRun<'t, 'a, 'c, S, const D: usize> {
     tile: &'t mut Tile<'a, S, D>,
     constants: &'c RunConstants<'c>,
     old: &'c MotionSlices<'c, D>,
     new: &'c MotionSlices<'c, D>,
 }
 
-impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
-    for ScatterRun<'_, '_, '_, S, D, AFFINE>
-{
+impl<S: Shape<D>, const D: usize> SimdTask for ScatterRun<'_, '_, '_, S, D> {
     type Output = ();
 
     #[inline(always)]
@@ -337,11 +279,13 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
             new,
         } = self;
         let pass = tile.pass;
-        let back = pass.giving == Giving::AllBack;
-        let place = if back { old } else { new };
-        // Straining alone leaves the velocities of the trial as they were.
-        let velocity = if back { old } else { new };
-        let forces = pass.giving != Giving::MomentumOn;
+        let (place, velocity) = match pass.giving {
+            // Straining alone leaves the velocities of the trial as they were.
+            Giving::AllBack => (old, old),
+            Giving::MomentumBack => (old, new),
+            _ => (new, new),
+        };
+        let forces = matches!(pass.giving, Giving::AllBack | Giving::AllOn);
         let works = pass.giving == Giving::AllOn;
         for first in (0..new.len()).step_by(EIGHT) {
             // Without motion or strain in this pass the trial holds them from the pass before.
@@ -351,7 +295,8 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
                 .transfers
                 .stencils_at(&pass.half_edges, tile.coordinates, &x, f);
             let rows = first..(first + EIGHT).min(new.len());
-            let affine = (AFFINE && !velocity.affine.is_empty()).then(|| &velocity.affine[first..]);
+            let has_affine = pass.is_affine() && !velocity.affine.is_empty();
+            let affine = has_affine.then(|| &velocity.affine[first..]);
             let mass = &constants.mass[first..];
             let mut gift = momentum_of(lanes, mass, &velocity.velocity[first..], affine);
             if forces {
@@ -365,14 +310,15 @@ impl<S: Shape<D>, const D: usize, const AFFINE: bool> SimdTask
                     tile.add_work(lanes, lanes.mul(volume, work), rows.len());
                 }
             }
-            let gifts = gift.rows::<L, true>(lanes);
             // Where there are fewer than eight the last one stands in for the others.
             if stencils.fitting() != u8::MAX {
                 pass.strayed.store(true, Relaxed);
             }
-            if forces || AFFINE {
+            if forces || has_affine {
+                let gifts = gift.rows::<L, true>(lanes);
                 stencils.scatter::<L, true>(lanes, &gifts, rows.len(), tile.sums);
             } else {
+                let gifts = gift.rows::<L, false>(lanes);
                 stencils.scatter::<L, false>(lanes, &gifts, rows.len(), tile.sums);
             }
         }

@@ -9,6 +9,7 @@ mod contact;
 mod filter;
 mod grid_update;
 mod kernels;
+#[allow(clippy::needless_range_loop)] // Numbers name the components of matrices.
 mod particle;
 mod phases;
 mod settings;

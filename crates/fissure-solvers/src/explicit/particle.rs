@@ -96,8 +96,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
         lanes: L,
         first: usize,
         x: &[[f64; EIGHT]; D],
-        gathered: &Gathered<L::Eight, D>,
-        carried: Option<&Gathered<L::Eight, D>>,
+        (gathered, carried): (&Gathered<L::Eight, D>, Option<&Gathered<L::Eight, D>>),
         old: &MotionSlices<'_, D>,
         new: &mut MotionSlicesMut<'_, D>,
     ) -> bool {
