@@ -28,7 +28,7 @@ pub trait Stencils<const D: usize> {
     /// What is not asked for has no meaning, and of the last number only the value and gradient of shapes that are not
     /// [`SMOOTH`](Self::SMOOTH) have one.
     ///
-    /// `field` holds [`FIELD`] numbers for each entry of the window.
+    /// `field` holds [`FIELD`](crate::FIELD) numbers for each entry of the window.
     fn gather<L: Lanes, const G: bool, const M: bool>(
         &self,
         lanes: L,
