@@ -108,18 +108,4 @@ impl EightResponses {
             ],
         }
     }
-
-    /// Whether every number is one.
-    #[inline(always)]
-    pub fn is_finite(&self) -> bool {
-        // A number times zero is zero, and what is none stays so.
-        let mut sums = [0.0; EIGHT];
-        for place in 0..EIGHT {
-            sums[place] = self.stored[place] * 0.0 + self.wave_speed[place] * 0.0;
-            for component in &self.stress {
-                sums[place] += component[place] * 0.0;
-            }
-        }
-        sums.iter().sum::<f64>() == 0.0
-    }
 }

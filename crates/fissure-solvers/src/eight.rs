@@ -116,6 +116,15 @@ pub(crate) struct GiftColumns<Eight, const D: usize> {
 }
 
 impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
+    #[inline(always)]
+    pub(crate) fn nothing<L: Lanes<Eight = Eight>>(lanes: L) -> Self {
+        let zero = lanes.splat(0.0);
+        Self {
+            value: [zero; FIELD + 4],
+            sloped: [[zero; FIELD + 4]; D],
+        }
+    }
+
     /// Masses and momenta.
     #[inline(always)]
     pub(crate) fn momentum<L: Lanes<Eight = Eight>>(
@@ -123,11 +132,7 @@ impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
         mass: Eight,
         velocity: &[Eight; D],
     ) -> Self {
-        let zero = lanes.splat(0.0);
-        let mut gift = Self {
-            value: [zero; FIELD + 4],
-            sloped: [[zero; FIELD + 4]; D],
-        };
+        let mut gift = Self::nothing(lanes);
         for i in 0..D {
             gift.value[i] = lanes.mul(mass, velocity[i]);
         }
@@ -171,6 +176,35 @@ impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
         if kinematics == Kinematics::Axisymmetric {
             let force = lanes.div(lanes.mul(minus, stress[2][2]), lanes.load(&x[0]));
             self.value[NodeSums::<D>::FORCE] = force;
+        }
+    }
+
+    /// Gradients as they are at the end of a step, `f⁻ᵀ·∇N` with `f = F F_old⁻¹`, for those at its start.
+    #[cfg(feature = "implicit")]
+    #[inline(always)]
+    pub(crate) fn move_gradients<L: Lanes<Eight = Eight>>(
+        &mut self,
+        lanes: L,
+        f_old: &Matrix<Eight>,
+        f: &Matrix<Eight>,
+    ) {
+        let back = inverse::<L, 3>(lanes, f);
+        let at_start = self.sloped;
+        for j in 0..D {
+            for number in &mut self.sloped[j] {
+                *number = lanes.splat(0.0);
+            }
+            for k in 0..D {
+                // F_old F⁻¹, row j and column k.
+                let mut factor = lanes.splat(0.0);
+                for m in 0..3 {
+                    factor = lanes.mul_add(f_old[m][j], back[k][m], factor);
+                }
+                for c in 0..FIELD + 4 {
+                    let sum = self.sloped[j][c];
+                    self.sloped[j][c] = lanes.mul_add(at_start[k][c], factor, sum);
+                }
+            }
         }
     }
 

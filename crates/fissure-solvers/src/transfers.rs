@@ -5,12 +5,13 @@
 //! so every sum has one order and the same bits on any number of threads.
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask, read_numbers};
-use fissure_grid::{FIELD, Gift, Grid, SUMS, Shape, Stencils};
+use fissure_grid::{FIELD, Grid, SUMS, Shape, Stencils};
 use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
-use fissure_tensor::Sym;
 use nalgebra::{SMatrix, SVector};
 
-use crate::eight::{GiftColumns, positions};
+use crate::eight::{
+    GiftColumns, determinant, momentum_of, positions, read_matrices, read_symmetric,
+};
 use crate::nodes::{Field, NodeSums};
 use crate::placement::Placement;
 use crate::window::{CUBE, SQUARE, WindowSums};
@@ -24,46 +25,25 @@ pub(crate) struct Transfers<'a, S, const D: usize> {
     pub simd: Simd,
 }
 
-/// Mass and momentum of a particle.
-#[inline(always)]
-pub(crate) fn momentum_gift<const D: usize>(
-    mass: f64,
-    velocity: &SVector<f64, D>,
-    affine: Option<&SMatrix<f64, D, D>>,
-) -> Gift<D> {
-    let mut gift = Gift::default();
-    for i in 0..D {
-        gift.value[i] = mass * velocity[i];
-    }
-    gift.value[NodeSums::<D>::MASS] = mass;
-    if let Some(affine) = affine {
-        for j in 0..D {
-            for i in 0..D {
-                gift.sloped[j][i] = mass * affine[(i, j)];
-            }
-        }
-    }
-    gift
+/// What particles give to the nodes as they are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Given {
+    /// Mass and momentum.
+    pub momentum: bool,
+    /// The momentum of their affine part too, if they have one.
+    pub affine: bool,
+    /// Internal forces.
+    pub forces: Option<At>,
 }
 
-/// Adds the internal force of a stress: `−V (σ·∇N + σ_θθ N e_r / r)`, N.
-#[inline(always)]
-pub(crate) fn add_stress<const D: usize>(
-    gift: &mut Gift<D>,
-    kinematics: Kinematics,
-    stress: &Sym,
-    volume: f64,
-    x: &SVector<f64, D>,
-) {
-    let full = stress.to_matrix();
-    for j in 0..D {
-        for i in 0..D {
-            gift.sloped[j][NodeSums::<D>::FORCE + i] = -volume * full[(i, j)];
-        }
-    }
-    if kinematics == Kinematics::Axisymmetric {
-        gift.value[NodeSums::<D>::FORCE] = -volume * stress.zz() / x[0];
-    }
+/// When internal forces are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum At {
+    /// Before the step: of the present stresses.
+    Start,
+    /// After it: of the trial stresses, with gradients at the end of the step.
+    #[cfg(feature = "implicit")]
+    End,
 }
 
 impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
@@ -114,39 +94,38 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         self.shape.stencils(self.grid, tile, x, domain)
     }
 
-    /// Sums to the nodes what `give` says of every particle: by value, and with `SLOPED` by gradient
-    /// and weighted arm.
+    /// Sums to the nodes what the particles give.
     ///
     /// # Errors
     /// Body and index of a particle that reaches off the grid.
-    pub(crate) fn spread<const SLOPED: bool>(
+    pub(crate) fn spread(
         &self,
         scene: &Scene<D>,
         sums: &mut NodeSums<D>,
-        give: impl Fn(&Body<D>, usize) -> Gift<D> + Sync,
+        given: Given,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.spread_window::<SQUARE, SLOPED>(scene, body_index, runs, sums, &give),
-            _ => self.spread_window::<CUBE, SLOPED>(scene, body_index, runs, sums, &give),
+            2 => self.spread_window::<SQUARE>(scene, body_index, runs, sums, given),
+            _ => self.spread_window::<CUBE>(scene, body_index, runs, sums, given),
         })
     }
 
-    fn spread_window<const N: usize, const SLOPED: bool>(
+    fn spread_window<const N: usize>(
         &self,
         scene: &Scene<D>,
         body_index: usize,
         runs: &[Run],
         sums: &NodeSums<D>,
-        give: &(impl Fn(&Body<D>, usize) -> Gift<D> + Sync),
+        given: Given,
     ) -> Result<(), (usize, usize)> {
         let number = runs[0].window;
         let mut window = WindowSums::<N>::zero();
-        let task = SpreadRuns::<'_, S, _, D, SLOPED> {
+        let task = SpreadRuns {
             transfers: self,
             body: &scene.bodies()[body_index],
             tile: self.placement.coordinates(number),
             runs,
-            give,
+            given,
             window: &mut window.0,
         };
         self.simd.run(task).map_err(|index| (body_index, index))?;
@@ -212,41 +191,78 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     }
 }
 
-struct SpreadRuns<'a, S, G, const D: usize, const SLOPED: bool> {
+struct SpreadRuns<'a, S, const D: usize> {
     transfers: &'a Transfers<'a, S, D>,
     body: &'a Body<D>,
     tile: [i32; D],
     runs: &'a [Run],
-    give: &'a G,
+    given: Given,
     window: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Shape<D>, G: Fn(&Body<D>, usize) -> Gift<D>, const D: usize, const SLOPED: bool> SimdTask
-    for SpreadRuns<'_, S, G, D, SLOPED>
-{
+impl<S: Shape<D>, const D: usize> SpreadRuns<'_, S, D> {
+    /// What the particles in these rows give.
+    #[inline(always)]
+    fn gift<L: Lanes>(&self, lanes: L, rows: std::ops::Range<usize>) -> GiftColumns<L::Eight, D> {
+        let particles = self.body.particles();
+        let present = &particles.motion;
+        let mut gift = GiftColumns::nothing(lanes);
+        if self.given.momentum {
+            let affine = self.given.affine.then_some(&present.affine);
+            // A column that is not there is empty.
+            let affine = affine.and_then(|affine| affine.get(rows.clone()));
+            let velocity = &present.velocity[rows.clone()];
+            gift = momentum_of(lanes, &particles.mass[rows.clone()], velocity, affine);
+        }
+        let motion = match self.given.forces {
+            None => return gift,
+            Some(At::Start) => present,
+            #[cfg(feature = "implicit")]
+            Some(At::End) => &particles.trial,
+        };
+        let f = read_matrices(lanes, &motion.deformation_gradient[rows.clone()]);
+        let volume = read_numbers(lanes, &particles.volume[rows.clone()]);
+        let volume = lanes.mul(volume, determinant(lanes, &f));
+        let stress = read_symmetric(lanes, &motion.stress[rows.clone()]);
+        let x = positions(lanes, &motion.position[rows.clone()]);
+        gift.add_stress(lanes, self.transfers.kinematics, &stress, volume, &x);
+        #[cfg(feature = "implicit")]
+        if self.given.forces == Some(At::End) {
+            let f_old = read_matrices(lanes, &present.deformation_gradient[rows]);
+            gift.move_gradients(lanes, &f_old, &f);
+        }
+        gift
+    }
+}
+
+impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
     type Output = Result<(), usize>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
         let motion = self.body.motion();
+        let sloped = self.given.affine || self.given.forces.is_some();
         for run in self.runs {
             let (start, end) = (run.start as usize, run.end as usize);
             for first in (start..end).step_by(EIGHT) {
+                let rows = first..(first + EIGHT).min(end);
                 let stencils = self.transfers.stencils_at(
                     self.body.half_edges(),
                     self.tile,
-                    &positions(lanes, &motion.position[first..end]),
-                    &motion.deformation_gradient[first..end],
+                    &positions(lanes, &motion.position[rows.clone()]),
+                    &motion.deformation_gradient[rows.clone()],
                 );
-                let count = EIGHT.min(end - first);
-                let mut gifts = [Gift::default(); EIGHT];
-                for (place, gift) in gifts.iter_mut().enumerate().take(count) {
-                    if !stencils.fits(place) {
-                        return Err(first + place);
-                    }
-                    *gift = (self.give)(self.body, first + place);
+                if let Some(row) = rows.clone().find(|row| !stencils.fits(row - first)) {
+                    return Err(row);
                 }
-                stencils.scatter::<L, SLOPED>(lanes, &gifts, count, self.window);
+                let gift = self.gift(lanes, rows.clone());
+                if sloped {
+                    let gifts = gift.rows::<L, true>(lanes);
+                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), self.window);
+                } else {
+                    let gifts = gift.rows::<L, false>(lanes);
+                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), self.window);
+                }
             }
         }
         Ok(())

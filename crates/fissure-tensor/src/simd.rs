@@ -9,7 +9,7 @@ mod plain;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use columns::{Row, read_columns, read_numbers, write_columns};
+pub use columns::{Row, chunks, read_columns, read_numbers, write_columns};
 use plain::Plain;
 
 /// Numbers that go through a vector unit at once.

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use super::Stencils;
 use crate::axes::Numbers;
 use crate::separable::Profile;
-use crate::simd::{EIGHT, Lanes};
+use crate::simd::{EIGHT, Lanes, chunks};
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
 use crate::{Grid, TILE, WINDOW, WINDOW_START, sums_entry};
 
@@ -94,35 +94,11 @@ fn node_columns<L: Lanes, const D: usize>(
 ) -> [L::Eight; FIELD] {
     let at = FIELD * node;
     if D > 2 || marked {
-        return lanes.columns4([
-            numbers(around[0], at),
-            numbers(around[1], at),
-            numbers(around[2], at),
-            numbers(around[3], at),
-            numbers(around[4], at),
-            numbers(around[5], at),
-            numbers(around[6], at),
-            numbers(around[7], at),
-        ]);
+        return lanes.columns4(chunks(*around, at));
     }
-    let [a, b] = lanes.columns2([
-        numbers(around[0], at),
-        numbers(around[1], at),
-        numbers(around[2], at),
-        numbers(around[3], at),
-        numbers(around[4], at),
-        numbers(around[5], at),
-        numbers(around[6], at),
-        numbers(around[7], at),
-    ]);
+    let [a, b] = lanes.columns2(chunks(*around, at));
     let zero = lanes.splat(0.0);
     [a, b, zero, zero]
-}
-
-/// Some numbers from a place on.
-#[inline(always)]
-fn numbers<const N: usize>(around: &[f64], at: usize) -> &[f64; N] {
-    around[at..].first_chunk().unwrap_or(&[0.0; N])
 }
 
 impl<const D: usize, const K: usize> SeparableStencils<D, K> {

@@ -24,17 +24,21 @@
 //! it slides on the surface `F_n(f_n = 0) = 0`, which is continuous. A plane that failed under
 //! pressure by dilation stays open by what it has dilated ([`Plane::seat`]).
 
-use fissure_tensor::{Matrix3, Sym, Vector3};
+mod opening;
+mod tangent;
 
+use fissure_tensor::{Sym, Vector3};
+
+use self::opening::Opening;
 use super::{
     Decohesion, Plane, Trial,
-    decohesion::{contact, pressure, slide, slide_rate},
+    decohesion::{contact, slide},
     turn::maximum_rate,
 };
 use crate::bisection::bisect;
 use crate::{
     Initiation, MaterialError, Scale, Softening, check_parameter,
-    criteria::{FailureCriterion, Geological, OnPlane, Partials},
+    criteria::{FailureCriterion, Geological, OnPlane},
     softening::Linear,
 };
 
@@ -52,114 +56,6 @@ pub struct GeologicalFlow<S = Linear> {
     /// Coefficient of friction after failure, dimensionless, ≥ 0; `None`: the surface with
     /// `f_n = 0`.
     pub friction: Option<f64>,
-}
-
-/// A plane with its shear direction, seen as a function of the opening.
-struct Opening<'a, S> {
-    law: &'a GeologicalFlow<S>,
-    rest: OnPlane,
-    old_opening: f64,
-    /// Shear traction if nothing slid, Pa.
-    shear: f64,
-    normal_stiffness: f64,
-    lateral_stiffness: f64,
-    shear_stiffness: f64,
-}
-
-impl<S: Softening> Opening<'_, S> {
-    fn on_plane(&self, opening: f64) -> OnPlane {
-        let lateral = self.lateral_stiffness * opening;
-        OnPlane {
-            normal: self.rest.normal - self.normal_stiffness * opening,
-            shear_squared: 0.0,
-            lateral_sum: self.rest.lateral_sum - 2.0 * lateral,
-            lateral_determinant: self.rest.lateral_determinant - lateral * self.rest.lateral_sum
-                + lateral * lateral,
-        }
-    }
-
-    /// The share `κ` of the shear traction that an opening leaves, and `∂F/∂τ_n` and `−F_n` without shear.
-    fn share(&self, opening: f64) -> (f64, Partials) {
-        let (law, plane) = (self.law, self.on_plane(opening));
-        let partials = law.surface.flow_partials(&plane, law.left(opening));
-        let push = partials.normal.max(0.0);
-        let given = self.given_way(opening);
-        // A plane that does not give way at all holds no shear either: `F_n` alone decides.
-        let share = if push > 0.0 {
-            push / (push + given)
-        } else {
-            0.0
-        };
-        (share, partials)
-    }
-
-    /// `2 (μ/L) Δu_n/τ_sf²`, 1/Pa.
-    fn given_way(&self, opening: f64) -> f64 {
-        let strength = self.law.surface.shear_strength;
-        2.0 * self.shear_stiffness * (opening - self.old_opening) / (strength * strength)
-    }
-
-    /// `−F_n`: negative where more opening is needed.
-    fn excess(&self, opening: f64) -> f64 {
-        let (share, partials) = self.share(opening);
-        let shear = share * self.shear / self.law.surface.shear_strength;
-        -partials.value - shear * shear
-    }
-
-    /// The share of the shear traction that is kept at the end of the step, and the rest of [`share`](Self::share). Where
-    /// the plane opens by next to nothing, as under strong pressure, the opening does not resolve it; there it follows from
-    /// `F_n = 0`, which elsewhere loses it where it is small.
-    fn kept(&self, opening: f64) -> (f64, Partials) {
-        let (share, partials) = self.share(opening);
-        let capacity = -partials.value;
-        if capacity * opening > opening - self.old_opening && self.shear > 0.0 {
-            let surface = self.law.surface.shear_strength * capacity.sqrt();
-            return (surface.min(self.shear) / self.shear, partials);
-        }
-        (share, partials)
-    }
-
-    /// The shear traction on the surface at the old opening, Pa.
-    fn shear_at_start(&self) -> f64 {
-        let (_, partials) = self.share(self.old_opening);
-        let capacity = (-partials.value).max(0.0);
-        (self.law.surface.shear_strength * capacity.sqrt()).min(self.shear)
-    }
-
-    /// Change of the stress on the plane and of `f_n` with the opening.
-    fn rate(&self, opening: f64) -> (OnPlane, f64) {
-        let lateral = self.lateral_stiffness;
-        let plane = OnPlane {
-            normal: -self.normal_stiffness,
-            shear_squared: 0.0,
-            lateral_sum: -2.0 * lateral,
-            lateral_determinant: lateral * (2.0 * lateral * opening - self.rest.lateral_sum),
-        };
-        let length = self.law.length();
-        (plane, self.law.softening.slope(opening / length) / length)
-    }
-
-    /// The opening at the end of the step; `None` if it is beyond the critical one.
-    fn solve(&self) -> Option<f64> {
-        let critical = self.law.softening.critical() * self.law.length();
-        let low = self.old_opening;
-        let mut high = critical;
-        if !critical.is_finite() {
-            let free = (self.rest.normal / self.normal_stiffness).max(0.0);
-            high = low.max(free) + self.law.length();
-            for _ in 0..60 {
-                if self.excess(high) >= 0.0 {
-                    break;
-                }
-                high *= 2.0;
-            }
-        }
-        // NaN fails the comparison: the plane fails, and the stress is refused as not finite.
-        if !(self.excess(high) >= 0.0) {
-            return None;
-        }
-        Some(bisect(low, high, |opening| self.excess(opening) < 0.0)[1])
-    }
 }
 
 impl<S: Softening> GeologicalFlow<S> {
@@ -231,105 +127,6 @@ impl<S: Softening> GeologicalFlow<S> {
             lateral_stiffness: trial.elastic.lambda() / old.width,
             shear_stiffness: trial.shear_stiffness(old),
         }
-    }
-
-    /// Change of [`residual`](Self::residual) with the pressure, where it slides.
-    fn residual_rate(&self, pressure: f64) -> f64 {
-        if let Some(friction) = self.friction {
-            return friction;
-        }
-        let plane = OnPlane {
-            normal: -pressure,
-            shear_squared: 0.0,
-            lateral_sum: 0.0,
-            lateral_determinant: 0.0,
-        };
-        let per_capacity = 0.5 * self.surface.shear_strength.powi(2) / self.residual(pressure);
-        per_capacity * self.surface.partials(&plane, 0.0).normal
-    }
-
-    /// Change of the jump of a failed plane with the traction of the trial, m/Pa.
-    fn contact_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> Matrix3<f64> {
-        let normal = new.normal();
-        if new.opening > new.seat {
-            // Open: all the stress is given up.
-            let across = normal * normal.transpose();
-            let plane = Matrix3::identity() - across;
-            return across / trial.normal_stiffness(new) + plane / trial.shear_stiffness(new);
-        }
-        let pressure = pressure(new, trial);
-        let Some((with_traction, with_limit)) = slide_rate(old, trial, self.residual(pressure))
-        else {
-            return Matrix3::zeros();
-        };
-        if pressure > 0.0 {
-            with_traction - with_limit * normal.transpose() * self.residual_rate(pressure)
-        } else {
-            with_traction
-        }
-    }
-
-    /// Change of the jump of a plane that flows, from `F_n = 0` and the flow, differentiated at the end of the step.
-    fn flow_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> [Sym; 3] {
-        let normal = new.normal();
-        let held = self.held_shear(old, trial);
-        let size = held.norm();
-        let way = held.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
-        let opening = self.opening(old, trial, size);
-        let (share, partials) = opening.kept(new.opening);
-        // The stress on the plane changes with the opening, and with the trial as that of the trial does.
-        let (per_opening, softening) = opening.rate(new.opening);
-        let (there, left) = (opening.on_plane(new.opening), self.left(new.opening));
-        let [sum, determinant] = OnPlane::lateral_gradients(&trial.stress, &normal);
-        let lateral = opening.lateral_stiffness * new.opening;
-        let gradients = [Sym::dyad(&normal), sum, determinant - sum * lateral];
-        let per_part = [
-            partials.normal,
-            partials.lateral_sum,
-            partials.lateral_determinant,
-        ];
-        let (mut source, mut bend_source) = (Sym::ZERO, Sym::ZERO);
-        for (index, gradient) in gradients.iter().enumerate() {
-            let is = |other: usize| f64::from(u8::from(index == other));
-            let unit = OnPlane {
-                normal: is(0),
-                shear_squared: 0.0,
-                lateral_sum: is(1),
-                lateral_determinant: is(2),
-            };
-            let bend = self.surface.flow_normal_rate(&there, left, &unit, 0.0);
-            source += *gradient * per_part[index];
-            bend_source += *gradient * bend;
-        }
-        let bend = self
-            .surface
-            .flow_normal_rate(&there, left, &per_opening, softening);
-        let slope = partials.normal * per_opening.normal
-            + partials.lateral_sum * per_opening.lateral_sum
-            + partials.lateral_determinant * per_opening.lateral_determinant
-            + partials.softening * softening;
-        // Two equations for the shear traction τ and the opening:
-        //   2τ/τ_sf² dτ + slope du = −source,   N dτ + (κ τ g − (τ₀ − τ) κ bend) du = κ N dτ₀ + (τ₀ − τ) κ bend_source.
-        let push = partials.normal.max(0.0);
-        let (shear, rest) = (share * size, (1.0 - share) * size * share);
-        let strength_squared = self.surface.shear_strength.powi(2);
-        let per_shear = 2.0 * shear / strength_squared;
-        let giving = 2.0 * opening.shear_stiffness / strength_squared;
-        let follows = share * shear * giving - rest * bend;
-        let determinant = per_shear * follows - push * slope;
-        let sheared = Sym::dyad_of(&normal, &way);
-        let right = sheared * (share * push) + bend_source * rest;
-        let opened = (right * per_shear + source * push) * (1.0 / determinant);
-        let shear_rate = (source * -follows - right * slope) * (1.0 / determinant);
-        // The slip is what τ₀ is less, over the stiffness, along τ₀: along it (dτ₀ − dτ), across it as it turns.
-        let flexibility = 1.0 / opening.shear_stiffness;
-        let lost = sheared * share - shear_rate;
-        std::array::from_fn(|i| {
-            let mut across = normal * -normal[i];
-            across[i] += 1.0;
-            let turned = Sym::dyad_of(&normal, &across) * (1.0 - share);
-            opened * normal[i] + (turned + lost * way[i]) * flexibility
-        })
     }
 
     /// Whether the plane stays as it was.

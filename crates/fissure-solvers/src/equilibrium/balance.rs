@@ -1,20 +1,20 @@
 //! The forces of a step: what the trial stresses do to the nodes, and what they leave unbalanced.
 
-use fissure_grid::{Gift, Shape};
+use fissure_grid::Shape;
 use fissure_materials::Tangent;
-use fissure_scene::{Body, Scene, SolveError, SweepSettings, SweepTotals};
+use fissure_scene::{Scene, SolveError, SweepSettings, SweepTotals};
 use nalgebra::SVector;
 
 use super::freedoms::Freedoms;
 use super::kernel::DisplacementKernel;
 use super::links::Links;
-use super::stiffness::relative;
 use crate::band::BandSource;
 use crate::constraints::Constraints;
 use crate::linear::norm;
 use crate::loads::Loads;
 use crate::nodes::NodeSums;
-use crate::transfers::{Transfers, add_stress, momentum_gift};
+pub(crate) use crate::transfers::At;
+use crate::transfers::{Given, Transfers};
 
 /// Trial motion and stresses for nodal displacements, as the means and increments of `links` have it, and tangents where
 /// there is room for them.
@@ -66,10 +66,15 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
     scene: &Scene<D>,
     sums: &mut NodeSums<D>,
 ) -> Result<(), (usize, usize)> {
-    transfers.spread::<false>(scene, sums, |body: &Body<D>, i| {
-        let particles = body.particles();
-        momentum_gift(particles.mass[i], &particles.motion.velocity[i], None)
-    })
+    transfers.spread(
+        scene,
+        sums,
+        Given {
+            momentum: true,
+            affine: false,
+            forces: None,
+        },
+    )
 }
 
 /// Body forces and loads at the nodes, N, from their masses.
@@ -84,15 +89,6 @@ pub(crate) fn external_forces<S: Shape<D>, const D: usize>(
     Ok(nodes.map(|(node, &mass)| loads.at(node, mass)).collect())
 }
 
-/// When internal forces are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum At {
-    /// Before the step: of the present stresses.
-    Start,
-    /// After it: of the trial stresses, with gradients at the end of the step.
-    End,
-}
-
 /// Internal forces of the stresses on the nodes.
 pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     transfers: &Transfers<'_, S, D>,
@@ -100,28 +96,15 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     sums: &mut NodeSums<D>,
     at: At,
 ) -> Result<(), (usize, usize)> {
-    transfers.spread::<true>(scene, sums, |body: &Body<D>, i| {
-        let particles = body.particles();
-        let motion = match at {
-            At::Start => &particles.motion,
-            At::End => &particles.trial,
-        };
-        let f_new = &motion.deformation_gradient[i];
-        let f_old = &particles.motion.deformation_gradient[i];
-        let volume = particles.volume[i] * f_new.determinant();
-        let (stress, x) = (&motion.stress[i], &motion.position[i]);
-        let mut gift = Gift::default();
-        add_stress(&mut gift, transfers.kinematics, stress, volume, x);
-        // Gradients at the end of the step from those at its start.
-        let at_start = gift.sloped;
-        let relative = relative::<D>(f_new, f_old);
-        for (j, gradient) in gift.sloped.iter_mut().enumerate() {
-            for (c, number) in gradient.iter_mut().enumerate() {
-                *number = (0..D).map(|k| at_start[k][c] * relative[(k, j)]).sum();
-            }
-        }
-        gift
-    })
+    transfers.spread(
+        scene,
+        sums,
+        Given {
+            momentum: false,
+            affine: false,
+            forces: Some(at),
+        },
+    )
 }
 
 /// The same, by the links where they are not what the shape functions say.

@@ -15,7 +15,7 @@ use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::loads::Loads;
 use crate::nodes::{Field, NodeSums, element, vector};
-use crate::transfers::{Transfers, add_stress, momentum_gift};
+use crate::transfers::{At, Given, Transfers};
 
 /// Share of the mean particle mass below which a node holds round-off and feels no force.
 const NO_MASS: f64 = 1e-16;
@@ -57,26 +57,16 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
     scene: &Scene<D>,
     sums: &mut NodeSums<D>,
 ) -> Result<(), SolveError> {
-    let affine = settings.transfer == Transfer::Apic;
-    let forces = settings.stress_update != StressUpdate::First;
-    let give = |body: &Body<D>, i: usize| {
-        let particles = body.particles();
-        let motion = &particles.motion;
-        // A column that an earlier solver left is not this one's.
-        let column = if affine { motion.affine.get(i) } else { None };
-        let mut gift = momentum_gift(particles.mass[i], &motion.velocity[i], column);
-        if forces {
-            let volume = particles.volume[i] * motion.deformation_gradient[i].determinant();
-            let (stress, x) = (&motion.stress[i], &motion.position[i]);
-            add_stress(&mut gift, transfers.kinematics, stress, volume, x);
-        }
-        gift
-    };
-    let spread = if affine || forces {
-        transfers.spread::<true>(scene, sums, give)
-    } else {
-        transfers.spread::<false>(scene, sums, give)
-    };
+    let spread = transfers.spread(
+        scene,
+        sums,
+        Given {
+            momentum: true,
+            // A column that an earlier solver left is not this one's.
+            affine: settings.transfer == Transfer::Apic,
+            forces: (settings.stress_update != StressUpdate::First).then_some(At::Start),
+        },
+    );
     spread.map_err(|(body, index)| outside(scene, body, index))
 }
 

@@ -56,11 +56,28 @@ pub fn read_columns<L: Lanes, T: Row>(lanes: L, rows: &[T], columns: &mut [L::Ei
         return read_eight(lanes, eight, columns);
     }
     for (c, column) in columns.iter_mut().enumerate() {
-        let mut numbers = [0.0; EIGHT];
-        for (place, number) in numbers.iter_mut().enumerate() {
-            *number = rows[place.min(rows.len() - 1)].numbers()[c];
-        }
-        *column = lanes.load(&numbers);
+        *column = lanes.load(&few(rows, c));
+    }
+}
+
+/// A number of each row, the last one's in the places of those that are not there. By itself, so that it is not
+/// compiled for every vector unit at every use.
+#[cold]
+#[inline(never)]
+fn few<T: Row>(rows: &[T], c: usize) -> [f64; EIGHT] {
+    let mut numbers = [0.0; EIGHT];
+    for (place, number) in numbers.iter_mut().enumerate() {
+        *number = rows[place.min(rows.len() - 1)].numbers()[c];
+    }
+    numbers
+}
+
+/// The opposite of [`few`].
+#[cold]
+#[inline(never)]
+fn write_few<T: Row>(numbers: &[f64; EIGHT], c: usize, rows: &mut [T]) {
+    for (row, number) in rows.iter_mut().zip(numbers) {
+        row.numbers_mut()[c] = *number;
     }
 }
 
@@ -88,9 +105,7 @@ pub fn write_columns<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mu
     for (c, column) in columns.iter().enumerate() {
         let mut numbers = [0.0; EIGHT];
         lanes.store(*column, &mut numbers);
-        for (row, number) in rows.iter_mut().zip(numbers) {
-            row.numbers_mut()[c] = number;
-        }
+        write_few(&numbers, c, rows);
     }
 }
 
@@ -98,30 +113,12 @@ pub fn write_columns<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mu
 fn read_eight<L: Lanes, T: Row>(lanes: L, rows: &[T; EIGHT], columns: &mut [L::Eight]) {
     let mut c = 0;
     while c + 4 <= columns.len() {
-        let four = [
-            chunk(&rows[0], c),
-            chunk(&rows[1], c),
-            chunk(&rows[2], c),
-            chunk(&rows[3], c),
-            chunk(&rows[4], c),
-            chunk(&rows[5], c),
-            chunk(&rows[6], c),
-            chunk(&rows[7], c),
-        ];
+        let four = chunks(flat(rows), c);
         columns[c..c + 4].copy_from_slice(&lanes.columns4(four));
         c += 4;
     }
     if c + 2 <= columns.len() {
-        let two = [
-            chunk(&rows[0], c),
-            chunk(&rows[1], c),
-            chunk(&rows[2], c),
-            chunk(&rows[3], c),
-            chunk(&rows[4], c),
-            chunk(&rows[5], c),
-            chunk(&rows[6], c),
-            chunk(&rows[7], c),
-        ];
+        let two = chunks(flat(rows), c);
         columns[c..c + 2].copy_from_slice(&lanes.columns2(two));
         c += 2;
     }
@@ -162,10 +159,25 @@ fn write_eight<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T; 
     }
 }
 
-/// Numbers of a row from one on; zeros, if it has not that many.
+/// Numbers of each of eight rows from one on, which must be so many.
 #[inline(always)]
-fn chunk<T: Row, const N: usize>(row: &T, at: usize) -> &[f64; N] {
-    row.numbers()[at..].first_chunk().unwrap_or(&[0.0; N])
+pub fn chunks<const N: usize>(rows: [&[f64]; EIGHT], at: usize) -> [&[f64; N]; EIGHT] {
+    let mut chunks = [&[0.0; N]; EIGHT];
+    for (chunk, row) in chunks.iter_mut().zip(rows) {
+        if let Some(found) = row[at..].first_chunk() {
+            *chunk = found;
+        }
+    }
+    chunks
+}
+
+#[inline(always)]
+fn flat<T: Row>(rows: &[T; EIGHT]) -> [&[f64]; EIGHT] {
+    let mut flat: [&[f64]; EIGHT] = [&[]; EIGHT];
+    for (flat, row) in flat.iter_mut().zip(rows) {
+        *flat = row.numbers();
+    }
+    flat
 }
 
 #[cfg(test)]
