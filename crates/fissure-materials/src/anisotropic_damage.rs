@@ -63,8 +63,8 @@ pub use self::two_cracks::{TwoCrackDamage, TwoCrackState};
 
 use crate::softening::Linear;
 use crate::{
-    Biot, Increment, Isotropic, Material, MaterialError, Onset, Response, Scale, SheetStep,
-    Softening, check_parameter,
+    Biot, EightPoints, EightResponses, Increment, Isotropic, Material, MaterialError, Onset,
+    Response, Scale, SheetStep, Softening, check_parameter,
 };
 
 const NAME: &str = "anisotropic damage";
@@ -217,6 +217,11 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         }
     }
 
+    #[inline(always)]
+    fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        self.sound_eight(points)
+    }
+
     fn plane_stress(
         &self,
         increment: &Increment,
@@ -257,10 +262,9 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
             return;
         }
         let crack = self.crack_at::<false>(&Scale::default(), state);
-        let (opening, shear) = crack.integrities(state);
         out[0] = state.opening;
-        out[1] = 1.0 - opening;
-        out[2] = 1.0 - shear;
+        out[1] = 1.0 - crack.opening_integrity(state);
+        out[2] = 1.0 - crack.shear_integrity(state);
         out[3] = crack.opening.dissipated_fraction(state.opened) * self.opening.toughness;
         out[4] = crack.shear.dissipated_fraction(state.sheared) * self.shear.toughness;
         out[5] = state.left_over;

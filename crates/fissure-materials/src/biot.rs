@@ -29,6 +29,7 @@ impl Biot {
     ///
     /// # Errors
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
+    #[inline]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
         let jacobian = f.determinant();
         let polar = polar(f).ok_or(MaterialError::Deformation {
@@ -43,6 +44,7 @@ impl Biot {
     }
 
     /// Strain `U − 1`.
+    #[inline]
     pub fn strain(&self) -> Sym {
         self.stretch - Sym::IDENTITY
     }
@@ -81,6 +83,7 @@ impl Biot {
     ///
     /// `U·S = T + W` with a skew `W`, since `S·U` is its transpose; that `S` is symmetric asks `W·U + U·W = U·T − T·U`,
     /// for the axial vectors `(tr U − U) w = k`, and `F·S·Fᵀ` is `R·(T + W)·Fᵀ`: no spectrum needed.
+    #[inline]
     pub fn cauchy(&self, biot_stress: &Sym) -> Sym {
         if self.stretch.yz() == 0.0 && self.stretch.xz() == 0.0 {
             let second_piola = self.second_piola(biot_stress);

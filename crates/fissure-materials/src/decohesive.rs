@@ -23,7 +23,7 @@ use crate::{
     error::{check_below, check_scaled_toughness},
     sheet::{Thickening, in_sheet},
     softening::{Linear, opening},
-    sound::{below, sound, sound_eight},
+    sound::{CONJUGATE, below, sound, sound_eight},
     turning::Turning,
 };
 
@@ -264,7 +264,7 @@ impl<S: Softening> Material for Decohesive<S> {
         old: &DecohesiveState,
     ) -> Result<Response<DecohesiveState>, MaterialError> {
         let point = self.point(&increment.external.scale);
-        if let Some(response) = point.sound(increment, old)? {
+        if let Some(response) = point.sound(increment, old) {
             return Ok(response);
         }
         let kinematics = Biot::new(&increment.f_new)?;
@@ -296,7 +296,7 @@ impl<S: Softening> Material for Decohesive<S> {
 
     #[inline(always)]
     fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
-        sound_eight(&self.elastic, points, |place, stress| {
+        sound_eight::<CONJUGATE>(&self.elastic, points, |place, stress| {
             below(self.strength * points.strength[place], stress)
         })
     }
@@ -338,7 +338,7 @@ impl<S: Softening> Material for Decohesive<S> {
             }
         }
         let tangent = kinematics.spatial_tangent(&step.biot_stress, &modulus) + widening;
-        let response = match point.sound(increment, old)? {
+        let response = match point.sound(increment, old) {
             Some(response) => response,
             None => point.response(&kinematics, &step, old),
         };
@@ -359,11 +359,11 @@ impl<S: Softening> Point<'_, S> {
         &self,
         increment: &Increment,
         old: &DecohesiveState,
-    ) -> Result<Option<Response<DecohesiveState>>, MaterialError> {
+    ) -> Option<Response<DecohesiveState>> {
         if old.width != 0.0 {
-            return Ok(None);
+            return None;
         }
-        sound(&self.elastic, &increment.f_new, |stress| {
+        sound::<CONJUGATE, _>(&self.elastic, &increment.f_new, |stress| {
             below(self.strength, stress)
         })
     }

@@ -1,10 +1,10 @@
 //! What hyperelastic laws on the left Cauchy-Green tensor need, without cancellation near rest.
 
-use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+use std::f64::consts::SQRT_2;
 
 use fissure_tensor::{Matrix3, Sym};
 
-use crate::{EIGHT, MaterialError};
+use crate::{EIGHT, EightPoints, MaterialError};
 
 /// `b − 1` and `J − 1` from the displacement gradient `H = F − 1`.
 ///
@@ -21,13 +21,6 @@ pub(crate) struct LeftStrain {
 }
 
 impl LeftStrain {
-    /// At rest.
-    pub const NONE: Self = Self {
-        excess: Sym::ZERO,
-        dilation: 0.0,
-        distortion: 0.0,
-    };
-
     /// Of a deformation gradient.
     ///
     /// # Errors
@@ -48,9 +41,23 @@ impl LeftStrain {
     /// Of the deformation gradient with these components, row by row, and whether it is finite with
     /// positive determinant; without branches.
     #[inline(always)]
-    pub fn of_rows([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> (Self, bool) {
+    pub fn of_rows(rows: [f64; 9]) -> (Self, bool) {
+        let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = rows;
         let determinant =
             xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
+        let (strain, square) = Self::unchecked(rows);
+        // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
+        // or less while the other is not. A component that is not finite makes the square so.
+        let sound = (determinant > 0.0)
+            & (determinant < f64::INFINITY)
+            & (strain.dilation > -1.0)
+            & (square < f64::INFINITY);
+        (strain, sound)
+    }
+
+    /// The strain, and the sum of the squares of `H`.
+    #[inline(always)]
+    fn unchecked([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> (Self, f64) {
         let (xx, yy, zz) = (xx - 1.0, yy - 1.0, zz - 1.0);
         let second = (xx * yy - xy * yx) + (yy * zz - yz * zy) + (zz * xx - zx * xz);
         let third = xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
@@ -61,12 +68,6 @@ impl LeftStrain {
             zx * zx + zy * zy + zz * zz,
         ];
         let square = rows[0] + rows[1] + rows[2];
-        // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
-        // or less while the other is not. A component that is not finite makes the square so.
-        let sound = (determinant > 0.0)
-            & (determinant < f64::INFINITY)
-            & (dilation > -1.0)
-            & (square < f64::INFINITY);
         let strain = Self {
             excess: Sym {
                 mandel: [
@@ -81,91 +82,36 @@ impl LeftStrain {
             dilation,
             distortion: square - 2.0 * (second + third),
         };
-        (strain, sound)
+        (strain, square)
     }
 
-    /// `V − 1 = √b − 1`; `None` where `|b − 1|` is over 0.1.
-    ///
-    /// The binomial series of the root of `1 + A`, `A = b − 1`, by Horner's rule with the powers of
-    /// `A` reduced by Cayley and Hamilton, is cut off where the terms are below round-off.
-    #[inline]
-    pub fn root(&self) -> Option<Sym> {
-        let a = &self.excess;
-        let squared = a.dot(a);
-        if !(squared <= SQUARED[2]) {
+    /// The left stretch less one, `V − 1 = √b − 1 = R·(U − 1)·Rᵀ`, and the dilation, without a polar decomposition: of use to
+    /// an isotropic law. `None` where `|b − 1|` is over 0.1, or `F` is not finite or turns space inside out.
+    #[inline(always)]
+    pub fn small(f: &Matrix3<f64>) -> Option<(Sym, f64)> {
+        let (strain, _) = Self::unchecked([
+            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
+        ]);
+        // J is near one or minus one where b is near the identity.
+        let root = strain.excess.root_of_one_plus()?;
+        (strain.dilation > -1.0).then_some((root, strain.dilation))
+    }
+
+    /// [`small`](Self::small) of eight, to the last bit; `None` where it is for one.
+    #[inline(always)]
+    pub fn small_eight(points: &EightPoints) -> Option<([Sym; EIGHT], [f64; EIGHT])> {
+        let mut excess = [Sym::ZERO; EIGHT];
+        let mut dilation = [0.0; EIGHT];
+        let mut outside_in = false;
+        for place in 0..EIGHT {
+            let (strain, _) = Self::unchecked(points.gradient(place));
+            (excess[place], dilation[place]) = (strain.excess, strain.dilation);
+            outside_in |= !(strain.dilation > -1.0);
+        }
+        if outside_in {
             return None;
         }
-        let terms = terms(squared);
-        let first = a.trace();
-        let second = 0.5 * (first * first - squared);
-        let third = a.determinant();
-        let (mut p, mut q, mut r) = (ROOT[terms - 1], 0.0, 0.0);
-        for c in ROOT[..terms - 1].iter().rev() {
-            (p, q, r) = (c + third * r, p - second * r, q + first * r);
-        }
-        let powers = *a * (p - second * r) + product(a, a) * (q + first * r);
-        Some(Sym::IDENTITY * (third * r) + powers)
-    }
-
-    /// [`root`](Self::root) of eight, to the last bit; zeros and `false` where one is over 0.1.
-    ///
-    /// The powers that `root` leaves out have coefficients of zero here, so that all eight take the same turns.
-    #[inline(always)]
-    pub fn roots(eight: &[Self; EIGHT]) -> ([Sym; EIGHT], bool) {
-        let mut roots = [Sym::ZERO; EIGHT];
-        let mut squared = [0.0; EIGHT];
-        let mut largest: f64 = 0.0;
-        let mut small = true;
-        for (squared, one) in squared.iter_mut().zip(eight) {
-            *squared = one.excess.dot(&one.excess);
-            small &= *squared <= SQUARED[2];
-            largest = if *squared > largest {
-                *squared
-            } else {
-                largest
-            };
-        }
-        if !small {
-            return (roots, false);
-        }
-        let terms = terms(largest);
-        let mut invariants = [[0.0; EIGHT]; 3];
-        for place in 0..EIGHT {
-            let a = &eight[place].excess;
-            invariants[0][place] = a.trace();
-            invariants[1][place] =
-                0.5 * (invariants[0][place] * invariants[0][place] - squared[place]);
-            invariants[2][place] = a.determinant();
-        }
-        let (mut p, mut q, mut r) = ([0.0; EIGHT], [0.0; EIGHT], [0.0; EIGHT]);
-        for term in (0..terms).rev() {
-            let beyond = match term {
-                ..TERMS_0 => -1.0,
-                TERMS_0..TERMS_1 => SQUARED[0],
-                _ => SQUARED[1],
-            };
-            for place in 0..EIGHT {
-                let c = if squared[place] > beyond {
-                    ROOT[term]
-                } else {
-                    0.0
-                };
-                let [first, second, third] = invariants;
-                (p[place], q[place], r[place]) = (
-                    c + third[place] * r[place],
-                    p[place] - second[place] * r[place],
-                    q[place] + first[place] * r[place],
-                );
-            }
-        }
-        for place in 0..EIGHT {
-            let a = &eight[place].excess;
-            let [first, second, third] = invariants;
-            let powers = *a * (p[place] - second[place] * r[place])
-                + product(a, a) * (q[place] + first[place] * r[place]);
-            roots[place] = Sym::IDENTITY * (third[place] * r[place]) + powers;
-        }
-        (roots, true)
+        Some((Sym::roots_of_one_plus(&excess)?, dilation))
     }
 
     /// `J`.
@@ -178,60 +124,6 @@ impl LeftStrain {
     #[inline(always)]
     pub fn log_jacobian(&self) -> f64 {
         log_of_one_plus(self.dilation).0
-    }
-}
-
-/// Up to these squares of `|b − 1|` the root takes so many terms.
-const SQUARED: [f64; 3] = [1e-6, 1e-4, 1e-2];
-const TERMS_0: usize = 6;
-const TERMS_1: usize = 9;
-
-/// How many terms of the root are above round-off.
-#[inline(always)]
-fn terms(squared: f64) -> usize {
-    if squared <= SQUARED[0] {
-        TERMS_0
-    } else if squared <= SQUARED[1] {
-        TERMS_1
-    } else {
-        ROOT.len()
-    }
-}
-
-/// `√(1 + x) − 1 = Σ c_k x^k`, from `c_1`.
-const ROOT: [f64; 16] = [
-    0.5,
-    -0.125,
-    0.0625,
-    -0.039_062_5,
-    0.027_343_75,
-    -0.020_507_812_5,
-    0.016_113_281_25,
-    -0.013_092_041_015_625,
-    0.010_910_034_179_687_5,
-    -0.009_273_529_052_734_375,
-    0.008_008_956_909_179_688,
-    -0.007_007_837_295_532_227,
-    0.006_199_240_684_509_277,
-    -0.005_535_036_325_454_712,
-    0.004_981_532_692_909_241,
-    -0.004_514_514_002_948_999,
-];
-
-/// The product of two symmetric tensors that commute, which is symmetric.
-#[inline(always)]
-pub(crate) fn product(a: &Sym, b: &Sym) -> Sym {
-    let (a, b) = (&a.mandel, &b.mandel);
-    let (yz, xz, xy) = (0.5 * a[3] * b[3], 0.5 * a[4] * b[4], 0.5 * a[5] * b[5]);
-    Sym {
-        mandel: [
-            a[0] * b[0] + (xy + xz),
-            a[1] * b[1] + (xy + yz),
-            a[2] * b[2] + (xz + yz),
-            a[1] * b[3] + a[3] * b[2] + FRAC_1_SQRT_2 * a[5] * b[4],
-            a[0] * b[4] + a[4] * b[2] + FRAC_1_SQRT_2 * a[5] * b[3],
-            a[0] * b[5] + a[5] * b[1] + FRAC_1_SQRT_2 * a[4] * b[3],
-        ],
     }
 }
 

@@ -47,9 +47,9 @@ impl TensionShear {
     /// `(σ₁ − σ₃)/2 ≤ √J₂`.
     #[inline]
     pub fn is_surely_below(&self, stress: &Sym) -> bool {
-        let deviator = stress.j2().sqrt();
-        let shear = matches!(self.onset, Onset::Tension) || deviator <= self.shear;
-        shear && stress.mean() + 1.154_700_538_379_251_7 * deviator <= self.tensile
+        let (reach, deviator) = (self.tensile - stress.mean(), stress.j2());
+        let shear = matches!(self.onset, Onset::Tension) | (deviator <= self.shear * self.shear);
+        shear & (reach >= 0.0) & (4.0 * deviator <= 3.0 * reach * reach)
     }
 
     /// The failure function maximised over the planes considered.

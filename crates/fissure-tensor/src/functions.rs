@@ -67,6 +67,7 @@ impl Sym {
     }
 
     /// Adjugate, `A·adj A = det A · I`.
+    #[inline]
     pub fn adjugate(&self) -> Self {
         let (xx, yy, zz) = (self.xx(), self.yy(), self.zz());
         let (yz, xz, xy) = (self.yz(), self.xz(), self.xy());

@@ -30,6 +30,7 @@ mod invariants;
 mod lyapunov;
 mod operators;
 mod polar;
+mod root;
 mod rotation;
 pub mod simd;
 mod spectral;

@@ -20,40 +20,91 @@ pub struct Polar {
 
 /// Polar decomposition of a deformation gradient, or `None` unless `det F > 0` and `F` is finite.
 ///
-/// Plane deformation gradients take a closed form, the others Newton's iteration with Higham's
-/// scaling (Higham 1986, SIAM J. Sci. Stat. Comput. 7, 1160), five steps as a rule. The factors
-/// reproduce `F`, and the rotation is orthogonal, to a few units of round-off. The rotation itself
+/// Plane deformation gradients take a closed form, those of a strain up to a few hundredths the series of the root of `FᵀF`,
+/// the others Newton's iteration with Higham's scaling (Higham 1986, SIAM J. Sci. Stat. Comput. 7, 1160), five steps as a
+/// rule. The factors reproduce `F`, and the rotation is orthogonal, to a few units of round-off. The rotation itself
 /// is determined by `F` to round-off times `σ₁/(σ₂+σ₃)` and no better.
+#[inline]
 pub fn polar(f: &Matrix3<f64>) -> Option<Polar> {
+    let plane = f.m13 == 0.0 && f.m23 == 0.0 && f.m31 == 0.0 && f.m32 == 0.0 && f.m33 > 0.0;
+    let quick = if plane {
+        plane_polar(f)
+    } else {
+        near_rotation(f)
+    };
+    quick.or_else(|| general_polar(f))
+}
+
+/// Sums of squares in between neither over- nor underflow, nor do their products.
+const MODERATE: std::ops::Range<f64> = 1e-100..1e100;
+
+/// In the plane `R` turns `(F11 + F22, F21 - F12)` onto the first axis, and that has at least the length of `F`: nothing
+/// cancels. `None` where the numbers are not moderate, or `det F ≤ 0`.
+#[inline]
+fn plane_polar(f: &Matrix3<f64>) -> Option<Polar> {
+    let determinant = f.m11 * f.m22 - f.m12 * f.m21;
+    let (x, y) = (f.m11 + f.m22, f.m21 - f.m12);
+    let squared = x * x + y * y;
+    if !(MODERATE.contains(&determinant) && MODERATE.contains(&squared) && f.m33 < f64::INFINITY) {
+        return None;
+    }
+    // Quotients: without rotation the stretch is `F` to the last bit.
+    let length = squared.sqrt();
+    let (c, s) = (x / length, y / length);
+    let across = 0.5 * (c * (f.m12 + f.m21) + s * (f.m22 - f.m11));
+    Some(Polar {
+        rotation: Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0),
+        stretch: Sym::new(
+            c * f.m11 + s * f.m21,
+            c * f.m22 - s * f.m12,
+            f.m33,
+            0.0,
+            0.0,
+            across,
+        ),
+    })
+}
+
+/// `U = √(FᵀF)` by its series and `R = F·U⁻¹`; `None` where the strain is not small, or `det F ≤ 0`.
+#[inline]
+fn near_rotation(f: &Matrix3<f64>) -> Option<Polar> {
+    let cofactors = cofactors(f);
+    let determinant = f.m11 * cofactors.m11 + f.m21 * cofactors.m21 + f.m31 * cofactors.m31;
+    if !(determinant > 0.0) {
+        return None;
+    }
+    let strain = Sym::new(
+        f.m11 * f.m11 + f.m21 * f.m21 + f.m31 * f.m31 - 1.0,
+        f.m12 * f.m12 + f.m22 * f.m22 + f.m32 * f.m32 - 1.0,
+        f.m13 * f.m13 + f.m23 * f.m23 + f.m33 * f.m33 - 1.0,
+        f.m12 * f.m13 + f.m22 * f.m23 + f.m32 * f.m33,
+        f.m11 * f.m13 + f.m21 * f.m23 + f.m31 * f.m33,
+        f.m11 * f.m12 + f.m21 * f.m22 + f.m31 * f.m32,
+    );
+    let stretch = Sym::IDENTITY + strain.root_of_one_plus()?;
+    // The stretch is near the identity: cofactors lose nothing.
+    let inverse = stretch.adjugate() * (1.0 / stretch.determinant());
+    Some(Polar {
+        rotation: f * inverse.to_matrix(),
+        stretch,
+    })
+}
+
+/// At any strain and size.
+#[inline(never)]
+fn general_polar(f: &Matrix3<f64>) -> Option<Polar> {
     // Magnitude near one, by a power of two: no determinant under- or overflows.
     let sum = (f.m11.abs() + f.m21.abs() + f.m31.abs())
         + (f.m12.abs() + f.m22.abs() + f.m32.abs())
         + (f.m13.abs() + f.m23.abs() + f.m33.abs());
     let scale = power_of_two(sum);
     let scaled: Matrix3<f64> = f * scale;
-    let rotation = if f.m13 == 0.0 && f.m23 == 0.0 && f.m31 == 0.0 && f.m32 == 0.0 && f.m33 > 0.0 {
-        plane_rotation(&scaled)?
-    } else {
-        newton_rotation(&scaled)?
-    };
-    let factors = corrected(&scaled, rotation);
+    let factors = corrected(&scaled, newton_rotation(&scaled)?);
     let stretch = factors.stretch / scale;
     stretch.is_finite().then_some(Polar {
         rotation: factors.rotation,
         stretch,
     })
-}
-
-/// In the plane `R` turns `(F11 + F22, F21 - F12)` onto the first axis.
-fn plane_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let determinant = f.m11 * f.m22 - f.m12 * f.m21;
-    if !determinant.is_finite() || determinant <= 0.0 {
-        return None;
-    }
-    let (x, y) = (f.m11 + f.m22, f.m21 - f.m12);
-    let length = (x * x + y * y).sqrt();
-    let (c, s) = (x / length, y / length);
-    Some(Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0))
 }
 
 /// `X ← (γX + X⁻ᵀ/γ)/2` from `X = F`.
@@ -146,5 +197,53 @@ fn corrected(f: &Matrix3<f64>, rotation: Matrix3<f64>) -> Polar {
     Polar {
         rotation: result,
         stretch: Sym::from_matrix(&(result.transpose() * f)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotation;
+
+    /// Gradients of strain and rotation of all sizes, in the plane or not.
+    fn gradients(plane: bool) -> impl Iterator<Item = Matrix3<f64>> {
+        (0..400).map(move |i| {
+            let number = |k: i32| f64::from(i * k + k).sin();
+            let size = 0.012 * 10f64.powf(-0.03 * f64::from(i));
+            let mut strain = Sym::new(number(2), number(3), number(5), 0.0, 0.0, number(11));
+            let mut axis = Vector3::new(0.0, 0.0, number(13));
+            if !plane {
+                strain += Sym::new(0.0, 0.0, 0.0, number(7), number(17), 0.0);
+                axis += Vector3::new(number(19), number(23), 0.0);
+            }
+            let turn = axis * 1.8;
+            rotation(&turn, turn.norm()) * (Matrix3::identity() + (strain * size).to_matrix())
+        })
+    }
+
+    #[test]
+    fn the_quick_ways_and_the_general_one_agree() {
+        for (plane, quick) in [
+            (true, plane_polar as fn(&Matrix3<f64>) -> Option<Polar>),
+            (false, near_rotation),
+        ] {
+            for f in gradients(plane) {
+                let (Some(quick), Some(general)) = (quick(&f), general_polar(&f)) else {
+                    panic!("{f}");
+                };
+                let turn = (quick.rotation - general.rotation).abs().max();
+                let stretch = (quick.stretch - general.stretch).max_abs();
+                assert!(turn < 2e-15 && stretch < 2e-15, "{turn:e}, {stretch:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_quick_ways_leave_what_is_not_theirs() {
+        let mirrored = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
+        assert!(plane_polar(&mirrored).is_none() && near_rotation(&mirrored).is_none());
+        assert!(plane_polar(&(Matrix3::identity() * 1e-60)).is_none());
+        assert!(near_rotation(&(Matrix3::identity() * 1.2)).is_none());
+        assert!(near_rotation(&Matrix3::from_element(f64::NAN)).is_none());
     }
 }

@@ -111,7 +111,7 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
             if self.has_failed(&state) {
                 dissipated += self.fail(&mut state, old, demand, &old_demand());
             }
-            dissipated += self.spent(&state) - self.spent(old);
+            dissipated += self.spent(old, &state);
         }
         let (mut slopes, normal_strain) = self.normal_response(&mut state, demand, opened);
         let mut slipped = Vector3::zeros();
@@ -182,11 +182,18 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
         power(opening, opening_exponent) + power(shear, shear_exponent) >= 1.0
     }
 
-    /// Energy dissipated so far, J/m³.
-    fn spent(&self, state: &AnisotropicDamageState) -> f64 {
-        let opening = self.opening.dissipated_fraction(state.opened) * self.opening.toughness;
-        let shear = self.shear.dissipated_fraction(state.sheared) * self.shear.toughness;
-        (opening + shear) / state.width
+    /// Energy dissipated from one state to another by what has softened, J/m³.
+    fn spent(&self, old: &AnisotropicDamageState, new: &AnisotropicDamageState) -> f64 {
+        let (mut opening, mut shear) = (0.0, 0.0);
+        if new.opened > old.opened {
+            opening = self.opening.dissipated_fraction(new.opened)
+                - self.opening.dissipated_fraction(old.opened);
+        }
+        if new.sheared > old.sheared {
+            shear = self.shear.dissipated_fraction(new.sheared)
+                - self.shear.dissipated_fraction(old.sheared);
+        }
+        (opening * self.opening.toughness + shear * self.shear.toughness) / new.width
     }
 
     /// Fails the crack where on the straight way from the old demand to the new one (34) is met,
@@ -256,19 +263,22 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
         }
     }
 
-    /// `1 − d` of both modes.
-    pub fn integrities(&self, state: &AnisotropicDamageState) -> (f64, f64) {
-        let opening = if state.failed {
+    /// `1 − d` in opening.
+    pub fn opening_integrity(&self, state: &AnisotropicDamageState) -> f64 {
+        if state.failed {
             0.0
         } else {
             self.opening.integrity(state.opened)
-        };
-        let shear = if self.is_broken(state) {
+        }
+    }
+
+    /// `1 − d` in shear.
+    pub fn shear_integrity(&self, state: &AnisotropicDamageState) -> f64 {
+        if self.is_broken(state) {
             0.0
         } else {
             self.shear.integrity(state.sheared)
-        };
-        (opening, shear)
+        }
     }
 
     /// Opening with the secant modulus; contact as if there were no crack (eq. 15).
@@ -278,7 +288,6 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
         demand: &Demand,
         opened: bool,
     ) -> (Slopes, f64) {
-        let (integrity, _) = self.integrities(state);
         let mut slopes = Slopes {
             normal: 1.0,
             ..Slopes::default()
@@ -287,6 +296,7 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
             state.opening = 0.0;
             return (slopes, 0.0);
         }
+        let integrity = self.opening_integrity(state);
         slopes.normal = integrity;
         if opened && !state.failed {
             slopes.normal = self.opening.slope(state.opened);
@@ -306,7 +316,7 @@ impl<N: Softening, T: Softening> CrackAt<'_, N, T> {
         sheared: bool,
         slopes: &mut Slopes,
     ) -> Vector3<f64> {
-        let (_, integrity) = self.integrities(state);
+        let integrity = self.shear_integrity(state);
         (slopes.along, slopes.across) = (integrity, integrity);
         if sheared && !self.is_broken(state) {
             // The demand is not zero: it has just moved the damage.

@@ -7,9 +7,12 @@ use super::elasticity::Elastic;
 use super::tangent::{self, Measure, Start};
 use super::{AnisotropicDamage, AnisotropicDamageState, NAME};
 use crate::error::{check_below, check_scaled_toughness};
-use crate::rotated::left_strain;
+use crate::finite_strain::LeftStrain;
+use crate::sound::{TURNED, sound_eight};
 use crate::tension_shear::TensionShear;
-use crate::{Biot, Increment, MaterialError, Onset, Response, Scale, Softening};
+use crate::{
+    Biot, EightPoints, EightResponses, Increment, MaterialError, Onset, Response, Scale, Softening,
+};
 
 /// What a step came to.
 pub(super) struct Step {
@@ -35,10 +38,12 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
     }
 
+    #[inline]
     pub(super) fn elastic_at<const SHEET: bool>(&self, scale: &Scale) -> Elastic<SHEET> {
         Elastic::new(&self.elastic.scaled(scale))
     }
 
+    #[inline]
     pub(super) fn crack_at<const SHEET: bool>(
         &self,
         scale: &Scale,
@@ -85,7 +90,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
     }
 
     /// The whole answer while no crack is near, from the left stretch: no spectrum, no rotation.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sound<const SHEET: bool>(
         &self,
         increment: &Increment,
@@ -94,17 +99,34 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         if old.width != 0.0 {
             return None;
         }
-        let strain = self.mechanical(left_strain(&increment.f_new)?, increment);
+        let (strain, _) = LeftStrain::small(&increment.f_new)?;
+        let strain = self.mechanical(strain, increment);
         let scale = &increment.external.scale;
         let stress = self.elastic_at::<SHEET>(scale).stress(&strain);
         self.surface::<SHEET>(scale)
             .is_surely_below(&stress)
             .then(|| Response {
                 stress,
-                state: *old,
+                state: AnisotropicDamageState::default(),
                 stored: 0.5 * stress.dot(&strain),
                 dissipated: 0.0,
             })
+    }
+
+    /// [`sound`](Self::sound) of eight in a solid; `None` if a closer look is needed at one of them.
+    #[inline(always)]
+    pub(super) fn sound_eight(&self, points: &EightPoints) -> Option<EightResponses> {
+        // The points bring no temperatures.
+        if self.thermal_expansion != 0.0 {
+            return None;
+        }
+        sound_eight::<TURNED>(&self.elastic, points, |place, stress| {
+            let scale = Scale {
+                strength: points.strength[place],
+                ..Scale::default()
+            };
+            self.surface::<false>(&scale).is_surely_below(stress)
+        })
     }
 
     pub(super) fn step<const SHEET: bool>(
@@ -217,6 +239,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
 }
 
 /// `ε_c n⊗n + sym(n⊗γ_c)`.
+#[inline]
 fn crack_strain(normal: &Vector3<f64>, moved: &Moved) -> Sym {
     Sym::dyad(normal) * moved.normal_strain + Sym::dyad_of(normal, &moved.shear_strain)
 }

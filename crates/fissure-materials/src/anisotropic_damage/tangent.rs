@@ -17,6 +17,7 @@ pub(super) enum Measure {
 }
 
 impl Measure {
+    #[inline]
     pub fn stress(self, kinematics: &Biot, biot_stress: &Sym) -> Sym {
         match self {
             Self::Turned => kinematics.turned(biot_stress),

@@ -16,7 +16,8 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
         let elastic = self.elastic_at::<false>(scale);
         let normal = Vector3::from(state.normal);
-        let (opening, sliding) = self.crack_at::<false>(scale, state).integrities(state);
+        let crack = self.crack_at::<false>(scale, state);
+        let (opening, sliding) = (crack.opening_integrity(state), crack.shear_integrity(state));
         let dyad = Sym::dyad(&normal);
         let mut damage = Tangent::dyad(&elastic.stress(&dyad), &dyad)
             * ((1.0 - opening) / elastic.p_wave_modulus());
