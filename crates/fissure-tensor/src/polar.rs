@@ -3,7 +3,7 @@
 use crate::eigen::power_of_two;
 use crate::{Matrix3, Sym, Vector3};
 
-/// Newton steps allowed; scaled, about ten are taken at a condition number of 1e16.
+/// Newton steps allowed; scaled, about nine are taken at a condition number of 1e16.
 const MAXIMAL_STEPS: usize = 30;
 
 /// Corrections of the rotation allowed; they converge quadratically.
@@ -21,8 +21,8 @@ pub struct Polar {
 /// Polar decomposition of a deformation gradient, or `None` unless `det F > 0` and `F` is finite.
 ///
 /// Plane deformation gradients take a closed form, those of a strain up to a few hundredths the series of the root of `FᵀF`,
-/// the others Newton's iteration with Higham's scaling (Higham 1986, SIAM J. Sci. Stat. Comput. 7, 1160), five steps as a
-/// rule. The factors reproduce `F`, and the rotation is orthogonal, to a few units of round-off. The rotation itself
+/// the others first some steps of Newton's iteration with Higham's scaling (Higham 1986, SIAM J. Sci. Stat. Comput. 7, 1160).
+/// The factors reproduce `F`, and the rotation is orthogonal, to a few units of round-off. The rotation itself
 /// is determined by `F` to round-off times `σ₁/(σ₂+σ₃)` and no better.
 #[inline]
 pub fn polar(f: &Matrix3<f64>) -> Option<Polar> {
@@ -73,6 +73,12 @@ fn near_rotation(f: &Matrix3<f64>) -> Option<Polar> {
     if !(determinant > 0.0) {
         return None;
     }
+    series(f)
+}
+
+/// The same of a matrix with positive determinant.
+#[inline(always)]
+fn series(f: &Matrix3<f64>) -> Option<Polar> {
     let strain = Sym::new(
         f.m11 * f.m11 + f.m21 * f.m21 + f.m31 * f.m31 - 1.0,
         f.m12 * f.m12 + f.m22 * f.m22 + f.m32 * f.m32 - 1.0,
@@ -107,7 +113,7 @@ fn general_polar(f: &Matrix3<f64>) -> Option<Polar> {
     })
 }
 
-/// `X ← (γX + X⁻ᵀ/γ)/2` from `X = F`.
+/// `X ← (γX + X⁻ᵀ/γ)/2` from `X = F`, which has the same rotation, until the series takes over.
 fn newton_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let mut x = *f;
     for _ in 0..MAXIMAL_STEPS {
@@ -120,9 +126,11 @@ fn newton_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         let next = x * (0.5 * gamma) + cofactors * (0.5 * reciprocal / determinant);
         let change = squares(&(next - x));
         x = next;
-        // The error left is half of the change squared: below round-off.
-        if change <= 1e-16 {
-            return Some(x);
+        // The strain left is half of the change squared.
+        if change <= 0.1
+            && let Some(factors) = series(&x)
+        {
+            return Some(factors.rotation);
         }
     }
     None

@@ -60,11 +60,8 @@ impl Sym {
         let (mut p, mut q, mut r) = ([0.0; EIGHT], [0.0; EIGHT], [0.0; EIGHT]);
         for term in (0..terms).rev() {
             for place in 0..EIGHT {
-                let c = if squared[place] > BEYOND[term] {
-                    ROOT[term]
-                } else {
-                    0.0
-                };
+                let counts = term == 0 || squared[place] > ENOUGH[term - 1];
+                let c = if counts { ROOT[term] } else { 0.0 };
                 let [first, second, third] = invariants;
                 (p[place], q[place], r[place]) = (
                     c + third[place] * r[place],
@@ -102,29 +99,19 @@ impl Sym {
     }
 }
 
-/// Up to these squares of `|A|` so many terms of the root are above round-off.
-const BRACKETS: [(f64, usize); 5] = [(1e-6, 5), (1e-5, 6), (1e-4, 8), (1e-3, 10), (LARGEST, 15)];
+/// Beyond this square of `|A|` there are too many terms.
 const LARGEST: f64 = 1e-2;
 
-/// The squares of `|A|` beyond which each term counts.
-const BEYOND: [f64; ROOT.len()] = {
-    let mut beyond = [-1.0; ROOT.len()];
-    let mut bracket = 0;
-    while bracket + 1 < BRACKETS.len() {
-        let (limit, mut term) = BRACKETS[bracket];
-        while term < ROOT.len() {
-            beyond[term] = limit;
-            term += 1;
-        }
-        bracket += 1;
-    }
-    beyond
-};
+/// Up to these squares of `|A|` one term of the root, two, and so on are enough: the next is below 5e-17 of the first.
+const ENOUGH: [f64; ROOT.len() - 1] = [
+    3.9e-32, 4e-16, 7.4e-11, 3e-8, 1e-6, 1.1e-5, 6.2e-5, 2.1e-4, 5.7e-4, 1.2e-3, 2.3e-3, 3.9e-3,
+    6.2e-3, 9e-3,
+];
 
 #[inline(always)]
 fn terms(squared: f64) -> usize {
-    let found = BRACKETS.iter().find(|(limit, _)| squared <= *limit);
-    found.map_or(ROOT.len(), |(_, terms)| *terms)
+    let more = ENOUGH.iter().take_while(|enough| squared > **enough);
+    1 + more.count()
 }
 
 /// `√(1 + x) − 1 = Σ c_k x^k`, from `c_1`.
