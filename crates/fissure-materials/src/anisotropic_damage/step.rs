@@ -129,6 +129,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         })
     }
 
+    #[inline(always)]
     pub(super) fn step<const SHEET: bool>(
         &self,
         kinematics: &Biot,
@@ -178,6 +179,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         })
     }
 
+    #[inline(always)]
     pub(super) fn response(
         &self,
         kinematics: &Biot,
