@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fissure_materials::contract::{Random, tangent_error};
 use fissure_materials::*;
-use fissure_tensor::Matrix3;
+use fissure_tensor::{Matrix3, Sym};
 
 use super::subject::{State, Subject, stiffness};
 use super::walk::{Kind, Proposal, STEPS, Walk};
@@ -217,7 +217,10 @@ impl<S: Subject> Target<'_, S> {
         old: &State<S>,
         counts: &mut Fuzzed,
     ) {
-        let strain = (proposal.f.transpose() * proposal.f - Matrix3::identity()).norm();
+        let strain =
+            Sym::from_matrix(&(proposal.f.transpose() * proposal.f - Matrix3::identity()));
+        let [first, second, third] = strain.spectrum().values;
+        let strain = strain.norm();
         if walk.kind == Kind::Units || !(strain < 0.5) {
             return;
         }
@@ -231,7 +234,9 @@ impl<S: Subject> Target<'_, S> {
         // their kinks: of two at once no quotient across them is the derivative.
         let near = 1e-2 * strain.min(failure);
         let within = 0.1 * (increment.f_new - increment.f_old).norm().min(failure);
-        let steps = [a, b, c, near, within];
+        // A plane across a principal direction turns over strains of the size of what that is ahead of the next.
+        let apart = (1e-2 * (first - second).min(second - third)).clamp(1e-6 * c, a);
+        let steps = [a, b, c, near, within, apart];
         let law = self.subject.law();
         if let Ok(error) = tangent_error(law, increment, old, self.stiffness, &steps) {
             counts.tangents += 1;
