@@ -51,7 +51,6 @@ pub const LAWS: &[Entry] = &[
     decohesive::SEVERAL_PLANES,
     decohesive::ROTATING_PLANE,
     decohesive::GEOLOGICAL,
-    decohesive::GEOLOGICAL_PLANES,
     anisotropic::ANISOTROPIC,
     anisotropic::IN_PLANE,
     anisotropic::TWO_CRACKS,

@@ -185,45 +185,31 @@ pub(super) const ROTATING_PLANE: Entry = Entry {
 pub(super) const GEOLOGICAL: Entry = Entry {
     name: "geological-flow",
     about: "one failure plane in tension, shear and compression, with associated flow",
-    parameters: GEOLOGICAL_PARAMETERS,
+    parameters: &[
+        density(2350.0),
+        young(24.9e9),
+        poisson(0.18),
+        strength(2.7e6),
+        toughness(61.35),
+    ],
     plane_stress: true,
-    build: |values, space| cracking(geological::<1>(values, Planes::Fixed), space),
-};
-
-pub(super) const GEOLOGICAL_PLANES: Entry = Entry {
-    name: "geological-multiple",
-    about: "up to six failure planes in tension, shear and compression, with associated flow",
-    parameters: GEOLOGICAL_PARAMETERS,
-    plane_stress: false,
-    build: |values, space| cracking(geological::<6>(values, Planes::Multiple(None)), space),
-};
-
-fn geological<const N: usize>(
-    values: &Values<'_>,
-    planes: Planes,
-) -> MultiCrack<N, GeologicalFlow> {
-    MultiCrack {
-        elastic: isotropic(values),
-        decohesion: GeologicalFlow {
-            surface: Geological {
-                strength: values.number("strength"),
-                ..Geological::CONCRETE
+    build: |values, space| {
+        let law: MultiCrack<1, GeologicalFlow> = MultiCrack {
+            elastic: isotropic(values),
+            decohesion: GeologicalFlow {
+                surface: Geological {
+                    strength: values.number("strength"),
+                    ..Geological::CONCRETE
+                },
+                toughness: values.number("toughness"),
+                softening: softening::Linear,
+                friction: None,
             },
-            toughness: values.number("toughness"),
-            softening: softening::Linear,
-            friction: None,
-        },
-        planes,
-    }
-}
-
-const GEOLOGICAL_PARAMETERS: &[LawParameter] = &[
-    density(2350.0),
-    young(24.9e9),
-    poisson(0.18),
-    strength(2.7e6),
-    toughness(61.35),
-];
+            planes: Planes::Fixed,
+        };
+        cracking(law, space)
+    },
+};
 
 const MODE_ONE: &[LawParameter] = &[
     density(2350.0),
