@@ -75,9 +75,14 @@ impl Study for BarOrientation {
                 .set("h", 0.005)
                 .sweep("angle", [0.0, 45.0])
                 .sweep("law", ["prescribed", "no-shear"]),
+            turned(&["rotated"])
+                .sweep("h", [0.005, 0.0025])
+                .sweep("angle", [15.0, 30.0, 45.0])
+                .set("law", "prescribed"),
             // Where the bar is weaker, sec. 5.4.
             base()
                 .sweep("h", [0.02, 0.01, 0.005])
+                .sweep("angle", [0.0, 45.0])
                 .sweep("weak", ["line", "square", "point"]),
         ]
     }
