@@ -75,9 +75,14 @@ impl Study for BarOrientation {
                 .set("h", 0.005)
                 .sweep("angle", [0.0, 45.0])
                 .sweep("law", ["prescribed", "no-shear"]),
+            turned(&["rotated"])
+                .sweep("h", [0.005, 0.0025])
+                .sweep("angle", [15.0, 30.0, 45.0])
+                .set("law", "prescribed"),
             // Where the bar is weaker, sec. 5.4.
             base()
                 .sweep("h", [0.02, 0.01, 0.005])
+                .sweep("angle", [0.0, 45.0])
                 .sweep("weak", ["line", "square", "point"]),
         ]
     }
@@ -116,7 +121,10 @@ impl Study for BarOrientation {
             rows.row(ensemble_row(ensemble)?)?;
         }
         match rows.out_dir().map(Path::to_path_buf) {
-            Some(folder) => draw_curves(&ensembles, &folder),
+            Some(folder) => {
+                draw_curves(&ensembles, &folder)?;
+                draw_weak_places(&ensembles, &folder)
+            }
             None => Ok(()),
         }
     }
@@ -254,6 +262,47 @@ fn draw_curves(ensembles: &[Vec<Run>], folder: &Path) -> Result<(), StudyError> 
         let (x, y) = sampled(&exact, |exact, at| exact.work(at));
         let energies = energies.series("exact work", x, y, Style::Dashed);
         save(energies, &folder.join(format!("energy-{angle}-deg.png")))?;
+    }
+    Ok(())
+}
+
+/// Loads of the bars that are weak in different places beside each other, a picture per spacing and angle.
+fn draw_weak_places(ensembles: &[Vec<Run>], folder: &Path) -> Result<(), StudyError> {
+    let runs: Vec<&Run> = ensembles.iter().map(|ensemble| &ensemble[0]).collect();
+    let is_line = |run: &Run| run.case.choice("weak").is_ok_and(|weak| weak == "line");
+    let alike = |a: &Run, b: &Run| {
+        let same = |name| a.case.get(name) == b.case.get(name);
+        ["h", "angle", "fill", "law", "strain"]
+            .into_iter()
+            .all(same)
+    };
+    let mut drawn: Vec<&Run> = Vec::new();
+    for &first in runs.iter().filter(|run| !is_line(run)) {
+        if drawn.iter().any(|run| alike(run, first)) {
+            continue;
+        }
+        drawn.push(first);
+        let bar = Bar::new(&first.case)?;
+        let mut loads = LinePlot::new("Load of the bar by where it is weak")
+            .x_label("elongation [m]")
+            .y_label("load [N]");
+        for run in runs.iter().filter(|run| alike(run, first)) {
+            let history = &run.history;
+            let weak = run.case.choice("weak")?;
+            loads = loads.series(weak, &history.elongation, &history.load, Style::Line);
+        }
+        for (name, exact) in [
+            ("exact, weak section", bar.exact()),
+            ("exact, full strength", bar.nominal()),
+        ] {
+            let (x, y) = sampled(&exact, |exact, at| exact.load(at));
+            loads = loads.series(name, x, y, Style::Dashed);
+        }
+        let (h, angle) = (first.case.number("h")?, first.case.number("angle")?);
+        save(
+            loads,
+            &folder.join(format!("load-weak-h-{h}-{angle}-deg.png")),
+        )?;
     }
     Ok(())
 }

@@ -4,6 +4,7 @@
 
 mod bar;
 mod bar_bifurcation;
+mod bar_embedded;
 mod bar_orientation;
 mod bar_snapback;
 mod compact_tension;
@@ -35,6 +36,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
         stress_intensity::StressIntensity,
     )));
     studies.push(Box::new(bar_orientation::BarOrientation));
+    studies.push(Box::new(bar_embedded::BarEmbedded));
     studies.push(Box::new(bar_bifurcation::BarBifurcation));
     studies.push(Box::new(bar_snapback::BarSnapback));
     studies.push(Box::new(compact_tension::CompactTension));

@@ -81,3 +81,31 @@ fn a_bar_that_snaps_back_follows_the_exact_curve() {
         assert_eq!(value("turned_back_rising"), 0.0, "{row}");
     }
 }
+
+/// The quick form. The optimal form is right in the middle of the cells and oblique to them, to the end; the document's is
+/// right in the middle of the cells only.
+#[test]
+fn a_crack_within_cells_is_right_at_an_angle_in_the_optimal_form() {
+    let rows = rows("bar-embedded", &["--quick"]);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        let parameters = &row["parameters"];
+        let turned = parameters["angle"].as_f64().unwrap() > 0.0;
+        let optimal = parameters["form"] == "optimal";
+        if optimal || !turned {
+            for (error, bound) in [
+                ("gauge_load_l2", 3e-3),
+                ("work", 3e-3),
+                ("dissipated", 1e-4),
+            ] {
+                let found = number(row, "errors", error);
+                assert!(found <= bound, "{error} = {found} is over {bound} in {row}");
+            }
+            let area = number(row, "values", "crack_area");
+            assert!((area - 1.0).abs() <= 1e-4, "{area}");
+        } else {
+            let found = number(row, "errors", "gauge_load_l2");
+            assert!(!(found <= 0.1), "{found} in {row}");
+        }
+    }
+}

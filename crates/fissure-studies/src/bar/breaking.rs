@@ -18,6 +18,9 @@ const END: f64 = 1.25;
 /// Up to where the load is compared, over the critical opening.
 const COMPARED: f64 = 1.2;
 
+/// Opening of particles that count as opened, over the critical one.
+const OPENED: f64 = 0.01;
+
 /// Steps between updates of the progress bar.
 const PROGRESS: u64 = 50;
 
@@ -123,14 +126,14 @@ fn one_strain(
 }
 
 /// A bar between its grips, and how they move.
-struct Pull {
-    grid: Grid<2>,
-    scene: Scene<2>,
+pub(crate) struct Pull {
+    pub grid: Grid<2>,
+    pub scene: Scene<2>,
     loading: Loading,
 }
 
 impl Pull {
-    fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
+    pub(crate) fn new(bar: &Bar, case: &Parameters, method: &Method) -> Result<Self, StudyError> {
         let loading = Loading::new(bar, case, method)?;
         let grid = bar.grid()?;
         let scene = bar.scene(&grid, move |t| loading.at(t))?;
@@ -142,12 +145,12 @@ impl Pull {
     }
 
     /// When the run ends, s.
-    fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.loading.end
     }
 
     /// Pulls to the end, or to where the solver finds no equilibrium.
-    fn break_with(
+    pub(crate) fn break_with(
         self,
         solver: &mut dyn Solver<2>,
         case: &Parameters,
@@ -214,18 +217,26 @@ pub(crate) fn row(
     case: &Parameters,
     finished: &Finished,
 ) -> Result<SimulationRow, StudyError> {
-    let critical = bar.exact().critical_opening();
-    let failed = FailedZone::of(&finished.scene, BODY, "opening", 0.5 * critical)
-        .map_err(StudyError::failed("measuring the failed zone"))?;
     let mut row = measured(study, bar, case, finished);
-    let cells = failed.volume / (bar.exact().area * bar.spacing);
-    row.values.insert("failed_zone_cells", cells);
+    // What is open halfway and more, and what has opened at all.
+    for (name, share) in [("failed_zone_cells", 0.5), ("opened_zone_cells", OPENED)] {
+        let opening = share * bar.exact().critical_opening();
+        let zone = FailedZone::of(&finished.scene, BODY, "opening", opening)
+            .map_err(StudyError::failed("measuring the failed zone"))?;
+        let cells = zone.volume / (bar.exact().area * bar.spacing);
+        row.values.insert(name, cells);
+    }
     row.values.insert("band", finished.band_width);
     Ok(row)
 }
 
 /// The same without what only a law that cracks can tell.
-fn measured(study: &str, bar: &Bar, case: &Parameters, finished: &Finished) -> SimulationRow {
+pub(crate) fn measured(
+    study: &str,
+    bar: &Bar,
+    case: &Parameters,
+    finished: &Finished,
+) -> SimulationRow {
     let (exact, nominal) = (bar.exact(), bar.nominal());
     let (scene, history) = (&finished.scene, &finished.history);
     // A run that stopped early has no error of the whole curve: NaN, and no bound holds for it.

@@ -3,13 +3,15 @@
 mod breaking;
 pub(crate) mod drawing;
 mod exact;
+mod gauge;
 mod history;
 mod specimen;
 
 use fissure_study::{Parameter, Permitted};
 
-pub(crate) use breaking::{Finished, break_bar, load, row, run_length};
+pub(crate) use breaking::{Finished, Pull, break_bar, load, measured, row, run_length};
 pub(crate) use exact::Exact;
+pub(crate) use gauge::Gauge;
 pub(crate) use history::{History, Thinned};
 pub(crate) use specimen::{BODY, Bar, OFFSETS};
 
@@ -54,9 +56,9 @@ fn placing() -> Vec<Parameter> {
         ),
         Parameter::choice(
             "fill",
-            "particles on a lattice that turns with the bar, or at the same places in every cell (figs 5.4, 5.39)",
+            "particles on a lattice that turns with the bar, at the same places in every cell (figs 5.4, 5.39), or in the middle of what the sides leave of quarter cells",
             "rotated",
-            &["rotated", "cell"],
+            &["rotated", "cell", "cut"],
         ),
         Parameter::count(
             "offset",

@@ -6,7 +6,7 @@ use fissure::prelude::*;
 use fissure_study::{Parameters, StudyError};
 
 use super::exact::Exact;
-use crate::filling::{Seeded, clipped};
+use crate::filling::{Seeded, clipped, cut};
 
 type Point = Vector2<f64>;
 
@@ -29,9 +29,20 @@ pub(crate) struct Bar {
     weak: Weak,
     /// Way of the grid against the bar, cells.
     offset: Point,
-    rotated_fill: bool,
+    fill: Fill,
     clamped: bool,
     gap: f64,
+}
+
+/// Where the particles are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fill {
+    /// On a lattice that turns with the bar.
+    Rotated,
+    /// At the same places in every cell.
+    Cell,
+    /// In the middle of the parts of cells.
+    Cut,
 }
 
 /// Where the bar is weaker [Sanchez 2010, sec. 5.4].
@@ -108,7 +119,11 @@ impl Bar {
             // A rank-1 lattice: both coordinates take each eighth of a cell once.
             offset: Point::new(offset, (3.0 * offset) % OFFSETS as f64) / OFFSETS as f64,
             weakening: parameters.number("weakening")?,
-            rotated_fill: parameters.choice("fill")? == "rotated",
+            fill: match parameters.choice("fill")? {
+                "cell" => Fill::Cell,
+                "cut" => Fill::Cut,
+                _ => Fill::Rotated,
+            },
             clamped: parameters.choice("ends")? == "clamped",
             gap: parameters.number("gap")?,
         };
@@ -154,9 +169,28 @@ impl Bar {
         Point::new(0.5 * self.length, 0.5 * self.width)
     }
 
+    /// Its corners, counter-clockwise, m.
+    fn outline(&self) -> [Point; 4] {
+        let along = self.axis() * (0.5 * self.length);
+        let across = Point::new(-self.axis().y, self.axis().x) * (0.5 * self.width);
+        [
+            -along - across,
+            along - across,
+            along + across,
+            across - along,
+        ]
+        .map(|way| self.centre() + way)
+    }
+
     /// Place along the bar, 0 to its length, of a point of the turned bar.
     pub(crate) fn along(&self, x: &Point) -> f64 {
         (x - self.centre()).dot(&self.axis()) + 0.5 * self.length
+    }
+
+    /// The middle of the weak line, m.
+    pub(crate) fn middle_of_line(&self) -> Point {
+        let (start, end) = self.line_at(0.5);
+        self.centre() + self.axis() * (0.5 * (start + end - self.length))
     }
 
     /// A line of one cell across the bar, as a range along it.
@@ -200,11 +234,13 @@ impl Bar {
         });
         let (length, width) = (self.length, self.width);
         let block = Block::new([0.0, 0.0], [length, width]);
-        let seeds = if self.rotated_fill {
-            self.lattice(&block)?
-        } else {
-            let turned = block.rotated(self.angle, self.centre().into());
-            clipped(grid, &turned, length * width)?
+        let seeds = match self.fill {
+            Fill::Rotated => self.lattice(&block)?,
+            Fill::Cell => {
+                let turned = block.rotated(self.angle, self.centre().into());
+                clipped(grid, &turned, length * width)?
+            }
+            Fill::Cut => cut(grid, &self.outline()),
         };
         self.fill(&mut scene, seeds)?;
         self.weaken(&mut scene)?;
@@ -266,6 +302,7 @@ impl Bar {
             "damaged-shear" => {
                 scene.add_body(BODY, plane(Shear::Damaged(0.0), Planes::Fixed), seeds)?
             }
+            "elastic" => scene.add_body(BODY, self.elastic, seeds)?,
             "rotating" => scene.add_body(BODY, plane(Shear::Elastic, Planes::Rotating), seeds)?,
             _ => {
                 let normal = Normal::Prescribed(Vector3::new(axis.x, axis.y, 0.0));

@@ -5,11 +5,14 @@ use fissure_studies::studies;
 use fissure_study::execute;
 use serde_json::Value;
 
-/// Result rows of a study with settings, as JSON.
+/// Result rows of a study with settings and flags, as JSON.
 pub fn rows(study: &str, settings: &[&str]) -> Vec<Value> {
     let mut arguments = vec!["fissure-studies", study, "--json"];
     for setting in settings {
-        arguments.extend(["--set", setting]);
+        if !setting.starts_with("--") {
+            arguments.push("--set");
+        }
+        arguments.push(setting);
     }
     let (mut output, mut messages) = (Vec::new(), Vec::new());
     let code = execute(&studies(), arguments, &mut output, &mut messages);
