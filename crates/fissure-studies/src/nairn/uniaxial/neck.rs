@@ -89,22 +89,22 @@ impl Slices {
         let now = self.extents(body, self.first.len());
         let widths = |number: usize| {
             let mut widths = [1.0; 2];
-            for axis in 0..D - 1 {
-                widths[axis] = now[number].width(axis) / self.first[number].width(axis);
+            for (axis, width) in widths.iter_mut().enumerate().take(D - 1) {
+                *width = now[number].width(axis) / self.first[number].width(axis);
             }
             widths
         };
         let section = |number: usize| widths(number).iter().product::<f64>();
         let number = (0..now.len()).min_by(|a, b| section(*a).total_cmp(&section(*b)))?;
         let mut angles = [0.0; 2];
-        for axis in 0..D - 1 {
+        for (axis, angle) in angles.iter_mut().enumerate().take(D - 1) {
             let above = now
                 .iter()
                 .min_by(|a, b| a.high[axis].total_cmp(&b.high[axis]))?;
             let below = now
                 .iter()
                 .max_by(|a, b| a.low[axis].total_cmp(&b.low[axis]))?;
-            angles[axis] = (above.x - below.x).atan2(self.first[number].width(axis));
+            *angle = (above.x - below.x).atan2(self.first[number].width(axis));
         }
         Some(Neck {
             section: section(number),
