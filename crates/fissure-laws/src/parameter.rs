@@ -222,6 +222,7 @@ pub fn study_parameters() -> Vec<Parameter> {
         unit: parameter.unit,
         default: vec![Value::from(OWN)],
         permitted: Permitted::WordOr(OWN, &parameter.permitted),
+        selects: false,
     });
     declared.collect()
 }

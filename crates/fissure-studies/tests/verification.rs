@@ -207,6 +207,21 @@ fn cracks_have_their_intensity_wherever_in_a_cell_their_tips_are() {
 }
 
 #[test]
+fn an_edge_crack_that_is_pulled_slowly_has_its_intensity() {
+    let settings = [
+        "case=edge",
+        "solver=explicit",
+        "angle=45",
+        "friction=0",
+        "part=0.5",
+        "cfl=0.8",
+        "h=0.0125",
+    ];
+    // The bar; the crack is four cells long.
+    intensities(&settings, &[("k1", 0.03), ("k2", 1e-3)]);
+}
+
+#[test]
 fn a_closed_crack_does_not_open_and_slides_against_friction() {
     let settings = [
         "case=closed",

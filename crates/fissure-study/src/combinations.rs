@@ -13,7 +13,8 @@ use crate::value::Value;
 ///
 /// What the user sets replaces the values in every default case; what is left of the
 /// case is kept. So one setting narrows or widens one parameter and leaves the rest of
-/// the default run as it is, and the cases that thereby become equal are run once.
+/// the default run as it is, and the cases that thereby become equal are run once. A parameter that
+/// [`selects`](Parameter::selecting) narrows the cases instead: those of other values are left out.
 ///
 /// # Errors
 ///
@@ -27,10 +28,14 @@ pub fn combinations(
     check_declarations(&parameters).map_err(StudyError::Definition)?;
     let mut seen = HashSet::new();
     let mut combinations = Vec::new();
-    for case in study.default_cases(settings, quick) {
+    let mut cases = study.default_cases(settings, quick);
+    for case in &cases {
         case.check(study.name(), &parameters)
             .map_err(StudyError::Definition)?;
-        for combination in product(&parameters, &case, settings) {
+    }
+    cases.extend(cases_left(&parameters, &cases, settings));
+    for case in &cases {
+        for combination in product(&parameters, case, settings) {
             if seen.insert(combination.to_string()) {
                 combinations.push(combination);
             }
@@ -54,22 +59,54 @@ fn check_declarations(parameters: &[Parameter]) -> Result<(), ParameterError> {
     Ok(())
 }
 
+/// Cases of nothing but those values of selecting parameters that are asked for and that no default case has.
+fn cases_left(
+    parameters: &[Parameter],
+    cases: &[Overrides],
+    settings: &Overrides,
+) -> Vec<Overrides> {
+    let selecting = parameters.iter().filter(|parameter| parameter.selects);
+    let left = selecting.filter_map(|parameter| {
+        let known: Vec<&Value> = cases
+            .iter()
+            .flat_map(|case| values(parameter, case, settings))
+            .collect();
+        let asked = settings.get(parameter.name)?.iter();
+        let left: Vec<Value> = asked.filter(|v| !known.contains(v)).cloned().collect();
+        (!left.is_empty()).then(|| Overrides::new().sweep(parameter.name, left))
+    });
+    left.collect()
+}
+
+/// The values of a parameter in a case: the user's, else the case's own, else the default ones; of a
+/// parameter that selects, those of the case that the user asks for.
+fn values<'a>(
+    parameter: &'a Parameter,
+    case: &'a Overrides,
+    settings: &'a Overrides,
+) -> Vec<&'a Value> {
+    let own = case.get(parameter.name).unwrap_or(&parameter.default);
+    match settings.get(parameter.name) {
+        None => own.iter().collect(),
+        Some(asked) if parameter.selects => own.iter().filter(|v| asked.contains(v)).collect(),
+        Some(asked) => asked.iter().collect(),
+    }
+}
+
 /// Every combination of one case; the parameter declared last changes fastest.
 fn product(parameters: &[Parameter], case: &Overrides, settings: &Overrides) -> Vec<Parameters> {
     let mut partial: Vec<Vec<(&'static str, Value)>> = vec![Vec::new()];
     for parameter in parameters {
-        let values = settings
-            .get(parameter.name)
-            .or_else(|| case.get(parameter.name))
-            .unwrap_or(&parameter.default);
+        let values = values(parameter, case, settings);
         partial = partial
             .into_iter()
             .flat_map(|chosen| {
-                values.iter().map(move |value| {
+                let extended = |value: &&Value| {
                     let mut extended = chosen.clone();
-                    extended.push((parameter.name, value.clone()));
+                    extended.push((parameter.name, (*value).clone()));
                     extended
-                })
+                };
+                values.iter().map(extended).collect::<Vec<_>>()
             })
             .collect();
     }

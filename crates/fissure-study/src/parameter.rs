@@ -17,6 +17,8 @@ pub struct Parameter {
     pub default: Vec<Value>,
     /// The values it accepts.
     pub permitted: Permitted,
+    /// Whether asking for values of it chooses among the default cases, instead of changing them all.
+    pub selects: bool,
 }
 
 impl Parameter {
@@ -34,6 +36,7 @@ impl Parameter {
             unit,
             default: vec![Value::Number(default)],
             permitted,
+            selects: false,
         }
     }
 
@@ -50,6 +53,7 @@ impl Parameter {
             unit: "1",
             default: vec![Value::Count(default)],
             permitted,
+            selects: false,
         }
     }
 
@@ -66,6 +70,7 @@ impl Parameter {
             unit: "",
             default: vec![Value::from(default)],
             permitted: Permitted::OneOf(names),
+            selects: false,
         }
     }
 
@@ -73,6 +78,14 @@ impl Parameter {
     #[must_use]
     pub fn sweep<V: Into<Value>>(mut self, values: impl IntoIterator<Item = V>) -> Self {
         self.default = values.into_iter().map(Into::into).collect();
+        self
+    }
+
+    /// Makes it the name of a default case: who asks for some of its values gets the default cases of those values, each with
+    /// what else it sets, and for a value without a default case the parameters' defaults.
+    #[must_use]
+    pub fn selecting(mut self) -> Self {
+        self.selects = true;
         self
     }
 

@@ -31,6 +31,7 @@ impl Study for Isoerror {
             unit: "m",
             default: vec![OWN.into()],
             permitted: Permitted::WordOr(OWN, &POSITIVE),
+            selects: false,
         });
         parameters.push(
             Parameter::number(

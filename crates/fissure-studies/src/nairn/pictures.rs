@@ -45,28 +45,45 @@ pub(super) struct Snapshot {
     pub title: String,
     pub points: Vec<[f64; 2]>,
     pub values: Vec<f64>,
+    /// Axes of the plane of the picture, if not x and y.
+    pub axes: Option<[&'static str; 2]>,
+}
+
+/// What of a body in space is drawn: its particles on an axis between two places, seen along it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slice {
+    pub axis: usize,
+    pub middle: f64,
+    pub half: f64,
 }
 
 impl Snapshot {
-    /// The bodies where they are now, coloured by a value of their laws; 0 where a law has none. Of
-    /// a body in space the slice |z − `middle`| < `half` is drawn.
+    /// The bodies where they are now, coloured by a value of their laws; 0 where a law has none.
     pub(super) fn of<const D: usize>(
         title: impl Into<String>,
         scene: &Scene<D>,
         value: &str,
-        slice: Option<(f64, f64)>,
+        slice: Option<Slice>,
     ) -> Self {
+        const NAMES: [&str; 3] = ["x [m]", "y [m]", "z [m]"];
+        let [one, other] = match slice.map(|slice| slice.axis) {
+            Some(0) => [1, 2],
+            Some(1) => [0, 2],
+            _ => [0, 1],
+        };
         let mut snapshot = Self {
             title: title.into(),
+            axes: Some([NAMES[one], NAMES[other]]),
             ..Self::default()
         };
         for body in scene.bodies() {
             let values = body.value(value);
             for (i, x) in body.motion().position.iter().enumerate() {
-                if slice.is_some_and(|(middle, half)| !((x[D - 1] - middle).abs() < half)) {
+                let inside = |slice: Slice| (x[slice.axis] - slice.middle).abs() < slice.half;
+                if !slice.is_none_or(inside) {
                     continue;
                 }
-                snapshot.points.push([x[0], x[1]]);
+                snapshot.points.push([x[one], x[other]]);
                 snapshot.values.push(values.as_ref().map_or(0.0, |v| v[i]));
             }
         }
@@ -97,11 +114,14 @@ impl Snapshot {
         size: f64,
         path: &Path,
     ) -> Result<(), StudyError> {
-        ScatterPlot::new(&self.title, &self.points)
+        let mut plot = ScatterPlot::new(&self.title, &self.points)
             .colour(label, &self.values)
             .range(low, high)
-            .particle_size(size)
-            .save(path)
+            .particle_size(size);
+        if let Some([x, y]) = self.axes {
+            plot = plot.labels(x, y);
+        }
+        plot.save(path)
             .map_err(StudyError::failed(format!("drawing {}", path.display())))
     }
 }

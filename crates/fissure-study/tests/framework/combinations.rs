@@ -86,6 +86,57 @@ fn lists_multiply_the_cases() {
 }
 
 #[test]
+fn a_parameter_that_names_the_case_chooses_among_the_default_cases() {
+    let settings = |list: &[&str]| -> Overrides {
+        let list: Vec<String> = list.iter().map(|text| (*text).to_owned()).collect();
+        Overrides::from_settings("named", &Named.parameters(), &list).unwrap()
+    };
+    let run = |list: &[&str]| -> Vec<String> {
+        let cases = combinations(&Named, &settings(list), false).unwrap();
+        cases.iter().map(ToString::to_string).collect()
+    };
+    let (short, long) = ("case=short length=1", "case=long length=9");
+    assert_eq!(run(&[]), [short, long]);
+    assert_eq!(run(&["case=long"]), [long]);
+    assert_eq!(run(&["case=long,short"]), [short, long]);
+    assert_eq!(run(&["case=short", "length=2"]), ["case=short length=2"]);
+    // One that is not run by default has the defaults of the parameters.
+    let both = run(&["case=odd,long"]);
+    assert_eq!(both, [long, "case=odd length=5"]);
+}
+
+/// Two default cases with a length each, and a third name.
+struct Named;
+
+impl Study for Named {
+    fn name(&self) -> &'static str {
+        "named"
+    }
+
+    fn about(&self) -> &'static str {
+        "cases by name"
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let case = Parameter::choice("case", "which", "short", &["short", "long", "odd"]);
+        let length = Parameter::number("length", "of it", "m", 5.0, Permitted::above(0.0));
+        vec![case.selecting(), length]
+    }
+
+    fn default_cases(&self, _settings: &Overrides, _quick: bool) -> Vec<Overrides> {
+        vec![
+            // Its case is the default one.
+            Overrides::new().set("length", 1.0),
+            Overrides::new().set("case", "long").set("length", 9.0),
+        ]
+    }
+
+    fn run(&self, _cases: &[Parameters], _report: &mut Report<'_>) -> Result<(), StudyError> {
+        Ok(())
+    }
+}
+
+#[test]
 fn equal_values_written_differently_are_one() {
     let cases = cases(&["h=0.01,1e-2, 0.010", "angle=0,-0"], true);
     assert_eq!(cases.len(), 1);

@@ -40,6 +40,7 @@ impl Study for PointStudy {
             unit,
             default: vec![OWN.into()],
             permitted: Permitted::WordOr(OWN, permitted),
+            selects: false,
         };
         let mut parameters = chosen::parameters("decohesive");
         parameters.extend([
@@ -80,6 +81,7 @@ impl Study for PointStudy {
                 unit: "",
                 default: vec!["".into()],
                 permitted: Permitted::Text,
+                selects: false,
             },
             Parameter::count(
                 "halvings",

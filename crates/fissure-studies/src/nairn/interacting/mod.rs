@@ -49,7 +49,7 @@ impl Study for InteractingCracks {
                 positive(),
             ),
             Parameter::number("place", "of the second crack", "m", 0.0375, positive()),
-            Parameter::number("end", "of the run", "s", 2e-4, positive()),
+            Parameter::number("end", "of the run", "s", 3e-4, positive()),
         ]);
         parameters
     }
@@ -58,7 +58,8 @@ impl Study for InteractingCracks {
         let explicit = Overrides::new();
         let damage = Overrides::new()
             .set("mode", "damage")
-            .set("toughness", 600.0);
+            .set("toughness", 600.0)
+            .set("end", 2e-4);
         if quick {
             // Half the plate, a coarser grid, a fast pull.
             return vec![

@@ -201,6 +201,7 @@ fn scene(
                 title: "Factor on the properties".to_owned(),
                 points: pairs.clone().map(|(_, x)| [x[0], x[1]]).collect(),
                 values: pairs.map(|(id, x)| factors(*id, x)).collect(),
+                axes: None,
             })
         }
         _ => None,

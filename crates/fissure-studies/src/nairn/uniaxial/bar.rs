@@ -50,9 +50,13 @@ pub(super) struct Bar {
     pub law: AnisotropicDamage,
     /// Speed of the right grip along the bar, m/s; negative in compression.
     pub speed: f64,
+    /// Until when it rises to that, s.
+    rise: f64,
     /// When the run ends, s.
     pub end: f64,
     measure: StressMeasure,
+    /// Whether a particle may have a second crack across its first.
+    two_cracks: bool,
     buffer: f64,
     jitter: f64,
     seed: u64,
@@ -86,7 +90,8 @@ impl Bar {
         };
         let (opening, shear) = (case.number("strength")?, case.number("shear_strength")?);
         let mut law = AnisotropicDamage::new(elastic, mode(opening), mode(shear));
-        if matches!(section, Section::Plane(_)) {
+        let upright = case.choice("planes")? == "upright";
+        if upright || matches!(section, Section::Plane(_)) {
             law.onset = Onset::InPlane;
         }
         let (length, buffer) = (case.number("length")?, case.number("buffer")?);
@@ -97,16 +102,35 @@ impl Bar {
                 "the two buffers leave nothing to soften",
             ));
         }
-        let speed = case.number("speed")?;
+        let measure = StressMeasure::of(case)?;
+        let two_cracks = case.choice("cracks")? == "two";
+        if two_cracks && measure != StressMeasure::Rotated {
+            return Err(StudyError::combination(
+                case,
+                &["cracks", "measure"],
+                "two cracks have the rotated stress only",
+            ));
+        }
+        let (speed, rise) = (case.number("speed")?, case.number("rise")?);
+        let end = case.number("strain")? * length / speed + 0.5 * rise;
+        if !(end >= rise) {
+            return Err(StudyError::combination(
+                case,
+                &["rise", "speed", "strain"],
+                "the run ends before the grip has its speed",
+            ));
+        }
         Ok(Self {
             section,
             length,
             width: case.number("width")?,
             depth: case.number("depth")?,
             law,
-            end: case.number("strain")? * length / speed,
+            rise,
+            end,
             speed: if name == "compression" { -speed } else { speed },
-            measure: StressMeasure::of(case)?,
+            measure,
+            two_cracks,
             buffer,
             jitter: case.number("jitter")?,
             seed: case.count("seed")?,
@@ -121,6 +145,15 @@ impl Bar {
             return shear;
         }
         shear.min(self.law.opening.strength)
+    }
+
+    /// How far the right grip has gone at a time, m: its speed rises smoothly, as s²(3 − 2s), at first.
+    pub(super) fn elongation(&self, time: f64) -> f64 {
+        if time >= self.rise {
+            return self.speed * (time - 0.5 * self.rise);
+        }
+        let part = time / self.rise;
+        self.speed * self.rise * part.powi(3) * (1.0 - 0.5 * part)
     }
 
     /// Area of the section, m².
@@ -187,7 +220,7 @@ impl Bar {
         mut min: [f64; D],
         mut max: [f64; D],
     ) -> Result<Grid<D>, StudyError> {
-        let way = (self.speed * self.end).max(0.0);
+        let way = self.elongation(self.end).max(0.0);
         max[0] = self.length + (way / spacing).ceil() * spacing;
         for axis in 0..D {
             let grip = if axis == 0 { GRIP } else { 0.0 };
@@ -206,9 +239,19 @@ impl Bar {
         let (seeding, grip) = (seeding(spacing), GRIP * spacing);
         let failed = || StudyError::failed("building the bar");
         let along = SVector::<f64, D>::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 });
-        let speed = self.speed;
-        self.measure
-            .fill(scene, BODY, self.law, &part(0.0, self.length), &seeding)?;
+        let (speed, rise) = (self.speed, self.rise);
+        let speed = move |time: f64| {
+            let part = if time < rise { time / rise } else { 1.0 };
+            speed * part * part * (3.0 - 2.0 * part)
+        };
+        let whole = part(0.0, self.length);
+        if self.two_cracks {
+            scene
+                .fill(BODY, TwoCrackDamage(self.law), &whole, &seeding)
+                .map_err(failed())?;
+        } else {
+            self.measure.fill(scene, BODY, self.law, &whole, &seeding)?;
+        }
         scene
             .rigid(
                 "left",
@@ -223,7 +266,7 @@ impl Bar {
                 &part(self.length, self.length + grip),
                 &seeding,
                 Hold::Component(along),
-                Velocity(move |_| speed),
+                Velocity(speed),
             )
             .map_err(failed())?;
         let noise = WhiteNoise { seed: self.seed };

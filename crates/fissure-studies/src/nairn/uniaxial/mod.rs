@@ -3,6 +3,7 @@
 
 mod bar;
 mod cases;
+mod neck;
 mod pictures;
 mod run;
 

@@ -51,7 +51,7 @@ impl Pictures {
             case.choice("shape")?,
             case.choice("transfer")?
         );
-        for other in ["plane", "band"] {
+        for other in ["plane", "band", "measure", "planes", "cracks"] {
             if case.varying().contains(&other) {
                 name = format!("{name}-{}", case.choice(other)?);
             }
@@ -75,10 +75,10 @@ impl Pictures {
         )?;
         let label = match kind {
             "tension" | "necking" | "compression" => "damage [1]",
-            _ => "damage [1], middle plane",
+            _ => "damage [1], a slice",
         };
-        for (number, snapshot) in history.snapshots.iter().enumerate() {
-            let path = folder.join(format!("{name}-{}.png", number + 1));
+        for (ending, snapshot) in &history.snapshots {
+            let path = folder.join(format!("{name}-{ending}.png"));
             snapshot.draw(label, (0.0, 1.0), 0.5 * numerics.spacing, &path)?;
         }
         if let Some((text, _)) = reference(bar, case) {

@@ -4,11 +4,12 @@ use fissure::prelude::*;
 use fissure_study::{Measures, Parameters, Report as Rows, SimulationRow, StudyError};
 
 use super::bar::{BODY, Bar, Flat, Section};
+use super::neck::{Neck, Slices};
 use super::pictures::Pictures;
 use crate::nairn::drive::{Drive, drive, energies, row};
 use crate::nairn::failed::Places;
 use crate::nairn::numerics::Numerics;
-use crate::nairn::pictures::Snapshot;
+use crate::nairn::pictures::{Slice, Snapshot};
 use crate::nairn::reference::Curve;
 
 /// Samples of a run.
@@ -28,13 +29,14 @@ pub(super) struct History {
     /// Errors of the ledger, J: of the laws' integration and of the transfer.
     pub imbalance: Vec<f64>,
     pub transfer_loss: Vec<f64>,
-    pub snapshots: Vec<Snapshot>,
+    /// With what their file is called after the number.
+    pub snapshots: Vec<(String, Snapshot)>,
     /// Nominal strain at which the first particle failed.
     first_failed: Option<f64>,
     /// Imbalance of the ledger over its largest term, until then.
     imbalance_softening: f64,
-    /// Smallest width over the first one.
-    neck: f64,
+    /// Until the first particle failed.
+    neck: Option<Neck>,
     /// Per particle and sample: dissipated over toughness, opening, axial stress.
     points: Vec<PointHistory>,
 }
@@ -96,27 +98,27 @@ fn pull<const D: usize>(
     mut solver: Box<dyn Solver<D>>,
     case: &Parameters,
 ) -> Result<Finished, StudyError> {
-    let mut history = History {
-        neck: 1.0,
-        ..History::default()
-    };
+    let mut history = History::default();
     let places = scene.body(BODY).map(Places::of);
+    let slices = scene
+        .body(BODY)
+        .map(|body| Slices::of(body, bar.length, numerics.spacing));
     history.points = vec![PointHistory::default(); scene.particle_count()];
     let end = bar.end;
     let (mut next, mut drawn) = (0.0, 0);
     let done = drive(&mut scene, solver.as_mut(), end, |scene, report| {
         if report.time >= next || report.time >= end {
             next += end / SAMPLES;
-            history.sample(bar, scene);
+            history.sample(bar, scene, slices.as_ref());
         }
         if DRAWN
             .get(drawn)
             .is_some_and(|share| report.time >= share * end)
         {
             drawn += 1;
-            history
-                .snapshots
-                .push(snapshot(bar, scene, numerics.spacing));
+            let neck = history.neck;
+            let snapshots = snapshots(bar, scene, numerics.spacing, drawn, neck);
+            history.snapshots.extend(snapshots);
         }
         true
     })?;
@@ -128,36 +130,61 @@ fn pull<const D: usize>(
     })
 }
 
-/// The bar coloured by its shear damage; of a bar in space its middle plane.
-fn snapshot<const D: usize>(bar: &Bar, scene: &Scene<D>, spacing: f64) -> Snapshot {
-    let percent = 100.0 * bar.speed * scene.time() / bar.length;
-    let slice = (D == 3).then(|| {
-        let depth = if bar.section == Section::Circle {
-            bar.width
-        } else {
-            bar.depth
-        };
-        (0.5 * depth, 0.5 * spacing)
-    });
+/// The bar coloured by its damage, with the ends of their files' names; of a bar in space the middle planes and the
+/// neck's section.
+fn snapshots<const D: usize>(
+    bar: &Bar,
+    scene: &Scene<D>,
+    spacing: f64,
+    number: usize,
+    neck: Option<Neck>,
+) -> Vec<(String, Snapshot)> {
+    let percent = 100.0 * bar.elongation(scene.time()) / bar.length;
     let value = if bar.strength() < bar.law.opening.strength || bar.speed < 0.0 {
         "shear_damage"
     } else {
         "normal_damage"
     };
-    Snapshot::of(
-        format!("{value} at a nominal strain of {percent:.1} %"),
-        scene,
-        value,
-        slice,
-    )
+    let draw = |name: &str, slice: Option<Slice>| {
+        let title = format!("{value} at a nominal strain of {percent:.1} %");
+        let snapshot = Snapshot::of(title, scene, value, slice);
+        (format!("{number}{name}"), snapshot)
+    };
+    if D == 2 {
+        return vec![draw("", None)];
+    }
+    let depth = match bar.section {
+        Section::Circle => bar.width,
+        _ => bar.depth,
+    };
+    let plane = |axis: usize, width: f64| Slice {
+        axis,
+        middle: 0.5 * width,
+        half: 0.5 * spacing,
+    };
+    let mut all = vec![
+        draw("", Some(plane(2, depth))),
+        draw("-side", Some(plane(1, bar.width))),
+    ];
+    if let Some(neck) = neck {
+        let slice = Slice {
+            axis: 0,
+            middle: neck.x,
+            half: spacing,
+        };
+        // Of a bar that has broken there may be nothing left there.
+        let section = draw("-section", Some(slice));
+        all.extend((!section.1.points.is_empty()).then_some(section));
+    }
+    all
 }
 
 impl History {
-    fn sample<const D: usize>(&mut self, bar: &Bar, scene: &Scene<D>) {
+    fn sample<const D: usize>(&mut self, bar: &Bar, scene: &Scene<D>, slices: Option<&Slices>) {
         let Some(body) = scene.body(BODY) else {
             return;
         };
-        let strain = bar.speed * scene.time() / bar.length;
+        let strain = bar.elongation(scene.time()) / bar.length;
         let (volume, motion) = (&body.particles().volume, body.motion());
         // ∫σ_xx dV over the volume at rest: the mean of Kirchhoff's stress, as the reference has it.
         let force: f64 = (0..volume.len())
@@ -194,18 +221,8 @@ impl History {
                 self.first_failed.get_or_insert(strain);
             }
         }
-        // The neck: where along the bar the particles lie closest to its axis.
-        let mut extent = vec![0.0_f64; 64];
-        let middle = 0.5 * bar.width;
-        let now = bar.length * (1.0 + strain);
-        for x in motion.position {
-            let slot = (x[0] / now * 64.0).clamp(0.0, 63.0) as usize;
-            extent[slot] = extent[slot].max((x[1] - middle).abs());
-        }
-        let widest = extent.iter().copied().fold(0.0, f64::max);
-        let filled = extent.iter().copied().filter(|reach| *reach > 0.0);
         if self.first_failed.is_none() {
-            self.neck = filled.fold(widest, f64::min) / middle;
+            self.neck = slices.and_then(|slices| slices.neck(body));
         }
     }
 
@@ -276,14 +293,29 @@ fn finished_row<const D: usize>(
             history.first_failed.map_or(f64::NAN, f64::abs),
         )
         .with("failed_particles", failed as f64)
-        .with("neck", history.neck)
         .with("opening_at_failure", opening)
         .with("reached", reached)
         .with("imbalance_softening", history.imbalance_softening);
-    row.values = energies(values, scene);
+    row.values = energies(with_neck::<D>(values, history.neck), scene);
     row.values
         .insert("dissipated_ratio", scene.energy().dissipated / ideal);
     row
+}
+
+/// What is known of the neck: its section over the first one, its widths alike, where it is in the bar at rest, and how
+/// it leans.
+fn with_neck<const D: usize>(mut values: Measures, neck: Option<Neck>) -> Measures {
+    let Some(neck) = neck else {
+        return values;
+    };
+    values.insert("neck", neck.section);
+    values.insert("neck_place", neck.place);
+    for (axis, name) in ["y", "z"].into_iter().take(D - 1).enumerate() {
+        let (width, angle) = (neck.widths[axis], neck.angles[axis].to_degrees());
+        values.insert(format!("neck_width_{name}"), width);
+        values.insert(format!("neck_angle_{name}_deg"), angle);
+    }
+    values
 }
 
 /// Differences from the independent code over its peak: of the peak, and the mean one of the stress
@@ -315,6 +347,7 @@ pub(super) fn reference(bar: &Bar, case: &Parameters) -> Option<(&'static str, f
         && case.number("length").ok()? == 0.04
         && case.number("width").ok()? == 6e-3
         && case.number("speed").ok()? == 1.0
+        && case.number("rise").ok()? == 0.0
         && bar.law.opening.strength == 30e6
         && bar.law.opening.toughness == 10e3;
     if !known || bar.speed < 0.0 {
