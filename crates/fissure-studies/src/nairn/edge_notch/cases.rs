@@ -54,12 +54,11 @@ pub(super) fn default_cases(settings: &Overrides, quick: bool) -> Vec<Overrides>
                 .set("crack", 0.01)
                 .set("end", 6e-5)
         };
-        let both = vec![small(Overrides::new()), small(explicit(600.0))];
-        return if asked(&"mode") {
-            vec![small(Overrides::new())]
-        } else {
-            both
-        };
+        let mut cases = vec![small(Overrides::new())];
+        if !asked(&"mode") {
+            cases.push(small(explicit(600.0)));
+        }
+        return cases;
     }
     let names = ["strength", "toughness", "h", "band", "notch", "transfer"];
     if names.iter().any(asked) {
