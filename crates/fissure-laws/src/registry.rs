@@ -25,8 +25,8 @@ pub struct Entry {
     pub build: fn(&Values<'_>, Space) -> Box<dyn Law>,
 }
 
-/// Every law.
-pub const LAWS: &[Entry] = &[
+/// Every law. Not a constant: that would be compiled, with all laws, once more in each crate that names it.
+pub static LAWS: &[Entry] = &[
     elastic::ISOTROPIC,
     elastic::HENCKY,
     elastic::NEO_HOOKEAN,

@@ -15,6 +15,9 @@ pub struct Overrides {
 
 impl Overrides {
     /// Overrides nothing: every parameter keeps its default.
+    // Compilers before 1.97 may take two of these that are moved for one, and free it twice (rust-lang/rust#155241). The
+    // result of a call they tell apart.
+    #[inline(never)]
     pub fn new() -> Self {
         Self::default()
     }
