@@ -217,8 +217,7 @@ impl<S: Subject> Target<'_, S> {
         old: &State<S>,
         counts: &mut Fuzzed,
     ) {
-        let strain =
-            Sym::from_matrix(&(proposal.f.transpose() * proposal.f - Matrix3::identity()));
+        let strain = Sym::from_matrix(&(proposal.f.transpose() * proposal.f - Matrix3::identity()));
         let [first, second, third] = strain.spectrum().values;
         let strain = strain.norm();
         if walk.kind == Kind::Units || !(strain < 0.5) {
