@@ -1,4 +1,4 @@
-//! What hyperelastic laws on the left Cauchy-Green tensor need, without cancellation near rest.
+//! What isotropic laws on the left Cauchy-Green tensor or the left stretch need, without cancellation near rest.
 
 use std::f64::consts::SQRT_2;
 

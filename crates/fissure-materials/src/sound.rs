@@ -46,8 +46,8 @@ fn cauchy<const MEASURE: bool>(stress: &Sym, strain: &Sym, dilation: f64) -> Sym
     (*stress + strain.commuting_product(stress)) * (1.0 / (1.0 + dilation))
 }
 
-/// [`sound`] of eight points, to the last bit, with the wave speeds of [`Biot::longest_stretch`]; `None` if that closer look
-/// is needed at one of them.
+/// [`sound`] of eight points, to the last bit, with wave speeds: those at rest times [`Biot::longest_stretch`], or its square
+/// where the stress is turned; `None` if that closer look is needed at one of them.
 #[inline(always)]
 pub(crate) fn sound_eight<const MEASURE: bool>(
     elastic: &Isotropic,

@@ -116,6 +116,7 @@ pub(crate) struct GiftColumns<Eight, const D: usize> {
 }
 
 impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
+    /// Zeros.
     #[inline(always)]
     pub(crate) fn nothing<L: Lanes<Eight = Eight>>(lanes: L) -> Self {
         let zero = lanes.splat(0.0);

@@ -126,7 +126,7 @@ fn newton_rotation(f: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         let next = x * (0.5 * gamma) + cofactors * (0.5 * reciprocal / determinant);
         let change = squares(&(next - x));
         x = next;
-        // The strain left is half of the change squared.
+        // The strain left is half of this, which is the square of the strain there was.
         if change <= 0.1
             && let Some(factors) = series(&x)
         {
@@ -213,7 +213,7 @@ mod tests {
     use super::*;
     use crate::rotation;
 
-    /// Gradients of strain and rotation of all sizes, in the plane or not.
+    /// Gradients of strain up to some percent and rotation of all sizes, in the plane or not.
     fn gradients(plane: bool) -> impl Iterator<Item = Matrix3<f64>> {
         (0..400).map(move |i| {
             let number = |k: i32| f64::from(i * k + k).sin();

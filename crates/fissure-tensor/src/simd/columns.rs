@@ -159,7 +159,7 @@ fn write_eight<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T; 
     }
 }
 
-/// Numbers of each of eight rows from one on, which must be so many.
+/// Numbers of each of eight rows from `at` on; zeros for a row that has not so many. `at` is within every row.
 #[inline(always)]
 pub fn chunks<const N: usize>(rows: [&[f64]; EIGHT], at: usize) -> [&[f64; N]; EIGHT] {
     let mut chunks = [&[0.0; N]; EIGHT];
