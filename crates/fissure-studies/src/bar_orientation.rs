@@ -283,7 +283,9 @@ fn draw_weak_places(ensembles: &[Vec<Run>], folder: &Path) -> Result<(), StudyEr
         }
         drawn.push(first);
         let bar = Bar::new(&first.case)?;
-        let mut loads = LinePlot::new("Load of the bar by where it is weak")
+        let (h, angle) = (first.case.number("h")?, first.case.number("angle")?);
+        let title = format!("Load of the bar by where it is weak, h = {h} m, {angle}°");
+        let mut loads = LinePlot::new(&title)
             .x_label("elongation [m]")
             .y_label("load [N]");
         for run in runs.iter().filter(|run| alike(run, first)) {
@@ -298,7 +300,6 @@ fn draw_weak_places(ensembles: &[Vec<Run>], folder: &Path) -> Result<(), StudyEr
             let (x, y) = sampled(&exact, |exact, at| exact.load(at));
             loads = loads.series(name, x, y, Style::Dashed);
         }
-        let (h, angle) = (first.case.number("h")?, first.case.number("angle")?);
         save(
             loads,
             &folder.join(format!("load-weak-h-{h}-{angle}-deg.png")),

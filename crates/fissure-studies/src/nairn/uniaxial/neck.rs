@@ -47,7 +47,7 @@ impl Slices {
         let particles = body.particles();
         let ids = particles.id.iter().map(|id| id.0 as usize + 1);
         let mut slice = vec![0; ids.max().unwrap_or(0)];
-        let last = (length / spacing).round() as usize - 1;
+        let last = ((length / spacing).round() as usize).saturating_sub(1);
         for (id, x) in particles.id.iter().zip(&particles.motion.position) {
             slice[id.0 as usize] = ((x[0] / spacing) as usize).min(last);
         }
