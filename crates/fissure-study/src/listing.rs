@@ -97,7 +97,10 @@ pub(crate) fn parameter_list(
             unit.to_owned(),
             comma_list(default),
             parameter.permitted.to_string(),
-            parameter.meaning.to_owned(),
+            match parameter.selects {
+                true => format!("{}; chooses among the default cases", parameter.meaning),
+                false => parameter.meaning.to_owned(),
+            },
         ]);
     }
     let plural = if cases.len() == 1 { "" } else { "s" };
