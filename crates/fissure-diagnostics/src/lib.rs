@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`Record`] | columns of any numbers, a row per step |
 //! | [`EnergyBalance`], [`EnergyHistory`] | where the work went and how well the ledger closes |
+//! | [`EnergyGuard`] | whether a run makes energy out of nothing, because its step is too long |
 //! | [`section_force`] | the force through any section of a body |
 //! | [`FailedZone`] | how large the failed part of a body is |
 //! | [`LoadDisplacement`], [`LoadCurve`] | load over displacement, its work and its peak |
@@ -18,6 +19,7 @@
 
 mod curve;
 mod energy;
+mod energy_guard;
 mod energy_history;
 mod error;
 mod failed_zone;
@@ -31,6 +33,7 @@ mod state_hash;
 
 pub use curve::{PowerLaw, curve_error, fit_slope};
 pub use energy::EnergyBalance;
+pub use energy_guard::EnergyGuard;
 pub use energy_history::EnergyHistory;
 pub use error::{CurveError, MeasureError};
 pub use failed_zone::FailedZone;

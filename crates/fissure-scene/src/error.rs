@@ -216,6 +216,14 @@ pub enum SolveError {
         /// Why the last attempt ended.
         stop: NewtonStop,
     },
+    /// A step that is longer than its scheme is stable for, by the speed of waves in the scene.
+    #[error("a step of {step:.6e} s is not stable; permitted: at most {longest:.6e} s")]
+    UnstableStep {
+        /// The step asked for, s.
+        step: f64,
+        /// The longest stable one, s.
+        longest: f64,
+    },
     /// The system of equations has no unique solution.
     #[error("step {step}, t = {time:.6e} s: the tangent is singular (is every body held?)")]
     Singular {
@@ -267,6 +275,21 @@ pub enum WatchError {
         kind: &'static str,
         /// The name asked for.
         name: String,
+    },
+    /// The scene holds more energy than was put in.
+    #[error(
+        "step {step}, t = {time:.6e} s: {energy:.3e} J in motion, strain and dissipation, {given:.3e} J of it put in: \
+         steps are too long for their scheme"
+    )]
+    EnergyGrowth {
+        /// The step after which it was found.
+        step: u64,
+        /// The time then, s.
+        time: f64,
+        /// Kinetic, stored and dissipated energy, J.
+        energy: f64,
+        /// Energy put in, J.
+        given: f64,
     },
     /// It could not write.
     #[error("{0}")]

@@ -45,5 +45,5 @@ pub use placement::Placement;
 #[cfg(feature = "implicit")]
 pub use quasi_static::{
     Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, LoadControl, QuasiStatic,
-    QuasiStaticSettings,
+    QuasiStaticSettings, Safeguard,
 };

@@ -27,13 +27,28 @@ pub(crate) struct Transfers<'a, S, const D: usize> {
 
 /// What particles give to the nodes as they are.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Given {
+pub(crate) enum Given {
     /// Mass and momentum.
-    pub momentum: bool,
-    /// The momentum of their affine part too, if they have one.
-    pub affine: bool,
+    Momentum {
+        /// With that of their affine part, if they have one.
+        affine: bool,
+        /// With the internal forces before the step.
+        forces: bool,
+    },
     /// Internal forces.
-    pub forces: Option<At>,
+    #[cfg(feature = "implicit")]
+    Forces(At),
+}
+
+impl Given {
+    #[inline(always)]
+    fn forces(self) -> Option<At> {
+        match self {
+            Self::Momentum { forces, .. } => forces.then_some(At::Start),
+            #[cfg(feature = "implicit")]
+            Self::Forces(at) => Some(at),
+        }
+    }
 }
 
 /// When internal forces are wanted.
@@ -207,14 +222,15 @@ impl<S: Shape<D>, const D: usize> SpreadRuns<'_, S, D> {
         let particles = self.body.particles();
         let present = &particles.motion;
         let mut gift = GiftColumns::nothing(lanes);
-        if self.given.momentum {
-            let affine = self.given.affine.then_some(&present.affine);
+        #[cfg_attr(not(feature = "implicit"), allow(irrefutable_let_patterns))]
+        if let Given::Momentum { affine, .. } = self.given {
+            let affine = affine.then_some(&present.affine);
             // A column that is not there is empty.
             let affine = affine.and_then(|affine| affine.get(rows.clone()));
             let velocity = &present.velocity[rows.clone()];
             gift = momentum_of(lanes, &particles.mass[rows.clone()], velocity, affine);
         }
-        let motion = match self.given.forces {
+        let motion = match self.given.forces() {
             None => return gift,
             Some(At::Start) => present,
             #[cfg(feature = "implicit")]
@@ -227,7 +243,7 @@ impl<S: Shape<D>, const D: usize> SpreadRuns<'_, S, D> {
         let x = positions(lanes, &motion.position[rows.clone()]);
         gift.add_stress(lanes, self.transfers.kinematics, &stress, volume, &x);
         #[cfg(feature = "implicit")]
-        if self.given.forces == Some(At::End) {
+        if self.given.forces() == Some(At::End) {
             let f_old = read_matrices(lanes, &present.deformation_gradient[rows]);
             gift.move_gradients(lanes, &f_old, &f);
         }
@@ -241,7 +257,8 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Result<(), usize> {
         let motion = self.body.motion();
-        let sloped = self.given.affine || self.given.forces.is_some();
+        let affine = matches!(self.given, Given::Momentum { affine: true, .. });
+        let sloped = affine || self.given.forces().is_some();
         for run in self.runs {
             let (start, end) = (run.start as usize, run.end as usize);
             for first in (start..end).step_by(EIGHT) {

@@ -21,11 +21,13 @@ const NAME: &str = "bar-orientation";
 
 /// What an ensemble is told by: errors, then values.
 const ERRORS: [&str; 2] = ["load_l2", "work"];
-const VALUES: [&str; 4] = [
+const VALUES: [&str; 6] = [
     "dissipated_ratio",
+    "stored_end",
     "middle_load",
     "late_load",
     "failed_zone_cells",
+    "opened_zone_cells",
 ];
 
 impl Study for BarOrientation {

@@ -39,7 +39,7 @@ impl SeriesSet {
 
     /// One row for every error of every series of runs that differ in `h` alone: the order by least
     /// squares over all spacings and between the two finest. One more for every series that differs
-    /// in `cfl` alone, by the distance between the final positions of neighbouring runs: the order
+    /// in `cfl` or in `steps` alone, by the distance between the final positions of neighbouring runs: the order
     /// in the step at a given spacing, free of the error in space.
     pub fn orders(&self) -> Vec<Row> {
         let mut rows = Vec::new();
@@ -54,13 +54,20 @@ impl SeriesSet {
                 rows.extend(self.row(&series, "h", name, &spacings, &errors));
             }
         }
-        for series in self.series("cfl") {
-            let (mut steps, mut distances) = (Vec::new(), Vec::new());
-            for pair in series.windows(2) {
-                steps.push(pair[0].case.number("cfl").unwrap_or(f64::NAN));
-                distances.push(distance(&pair[0].positions, &pair[1].positions));
+        for (name, step) in [
+            ("cfl", (|cfl| cfl) as fn(f64) -> f64),
+            ("steps", |steps| 1.0 / steps),
+        ] {
+            for mut series in self.series(name) {
+                let step = |run: &Finished| step(value_of(run, name));
+                series.sort_by(|a, b| step(b).total_cmp(&step(a)));
+                let pairs = || series.windows(2);
+                let steps: Vec<f64> = pairs().map(|pair| step(pair[0])).collect();
+                let distances: Vec<f64> = pairs()
+                    .map(|pair| distance(&pair[0].positions, &pair[1].positions))
+                    .collect();
+                rows.extend(self.row(&series, name, "change_of_positions", &steps, &distances));
             }
-            rows.extend(self.row(&series, "cfl", "change_of_positions", &steps, &distances));
         }
         rows
     }
@@ -75,9 +82,8 @@ impl SeriesSet {
                 None => series.push(vec![run]),
             }
         }
-        let value = |run: &Finished| run.case.number(name).unwrap_or(f64::NAN);
         for series in &mut series {
-            series.sort_by(|a, b| value(b).total_cmp(&value(a)));
+            series.sort_by(|a, b| value_of(b, name).total_cmp(&value_of(a, name)));
         }
         series.retain(|series| series.len() > 1);
         series
@@ -108,6 +114,12 @@ impl SeriesSet {
                 .field("runs", Field::from(series.len())),
         )
     }
+}
+
+/// The value of a number or count by which runs differ.
+fn value_of(run: &Finished, name: &str) -> f64 {
+    let count = |_| run.case.count(name).map(|count| count as f64);
+    run.case.number(name).or_else(count).unwrap_or(f64::NAN)
 }
 
 /// Every parameter but one.

@@ -5,7 +5,7 @@ use std::thread::available_parallelism;
 use fissure::prelude::*;
 use rayon::ThreadPoolBuilder;
 
-use fissure_study::{Parameter, Parameters, Permitted, StudyError};
+use fissure_study::{Parameter, ParameterError, Parameters, Permitted, StudyError};
 
 /// The shape functions by name.
 pub const SHAPES: &[&str] = &["linear", "gimp", "cpdi", "bspline2", "bspline3"];
@@ -14,10 +14,10 @@ pub const SHAPES: &[&str] = &["linear", "gimp", "cpdi", "bspline2", "bspline3"];
 pub const SOLVERS: &[&str] = &["explicit", "quasi-static", "implicit"];
 
 /// The parameters that [`Method::of`] reads, for a study that runs these spacings by default and
-/// permits these solvers, the first of them by default.
+/// permits these solvers, the first of them by default; those of other solvers are left out.
 pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Parameter> {
     let threads = available_parallelism().map_or(1, |n| n.get() as u64);
-    vec![
+    let mut parameters = vec![
         Parameter::number(
             "h",
             "grid spacing",
@@ -28,6 +28,27 @@ pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Par
         .sweep(spacings.iter().copied()),
         Parameter::choice("solver", "time integration", solvers[0], solvers),
         Parameter::choice("shape", "shape function", "linear", SHAPES),
+    ];
+    if solvers.contains(&"explicit") {
+        parameters.extend(explicit());
+    }
+    if solvers.iter().any(|solver| *solver != "explicit") {
+        parameters.extend(equilibrium());
+    }
+    if solvers.contains(&"implicit") {
+        parameters.extend(implicit());
+    }
+    parameters.push(Parameter::count(
+        "threads",
+        "worker threads",
+        threads,
+        Permitted::counts(1..=256),
+    ));
+    parameters
+}
+
+fn explicit() -> [Parameter; 4] {
+    [
         Parameter::choice(
             "transfer",
             "between particles and grid (explicit)",
@@ -53,6 +74,12 @@ pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Par
             0.4,
             Permitted::numbers(0.01..=1.0),
         ),
+    ]
+}
+
+/// Of the solvers that balance forces at the end of a step.
+fn equilibrium() -> [Parameter; 2] {
+    [
         Parameter::count(
             "steps",
             "equal steps of the run (quasi-static, implicit)",
@@ -66,11 +93,31 @@ pub fn parameters(spacings: &[f64], solvers: &'static [&'static str]) -> Vec<Par
             1e-8,
             Permitted::numbers(1e-12..=1e-2),
         ),
-        Parameter::count(
-            "threads",
-            "worker threads",
-            threads,
-            Permitted::counts(1..=256),
+    ]
+}
+
+/// How implicit runs go from accelerations to displacements.
+fn implicit() -> [Parameter; 3] {
+    [
+        Parameter::choice(
+            "integration",
+            "scheme in time (implicit)",
+            "generalized-alpha",
+            &["generalized-alpha", "newmark", "theta"],
+        ),
+        Parameter::number(
+            "spectral_radius",
+            "share that generalised alpha leaves of an infinitely fast motion in a step",
+            "1",
+            0.8,
+            Permitted::numbers(0.0..=1.0),
+        ),
+        Parameter::number(
+            "weight",
+            "of the forces at the end of a step in the theta scheme",
+            "1",
+            1.0,
+            Permitted::numbers(0.0..=1.0),
         ),
     ]
 }
@@ -90,6 +137,8 @@ pub struct Method {
     pub steps: u64,
     /// Residual in equilibrium of a quasi-static or implicit run, over the largest reaction or force.
     pub tolerance: f64,
+    /// Scheme in time of an implicit run.
+    pub integration: Integration,
 }
 
 impl Method {
@@ -98,29 +147,15 @@ impl Method {
     /// # Errors
     /// A parameter that the study did not declare.
     pub fn of(case: &Parameters) -> Result<Self, StudyError> {
-        let order = case.size("order")?;
         Ok(Self {
             spacing: case.number("h")?,
             solver: case.choice("solver")?.to_owned(),
             shape: case.choice("shape")?.to_owned(),
-            explicit: ExplicitSettings {
-                cfl: case.number("cfl")?,
-                transfer: match case.choice("transfer")? {
-                    "pic" => Transfer::Pic,
-                    "apic" => Transfer::Apic,
-                    "xpic" => Transfer::Xpic { order },
-                    "fmpm" => Transfer::Fmpm { order },
-                    _ => Transfer::Flip { pic: 0.0 },
-                },
-                stress_update: match case.choice("update")? {
-                    "first" => StressUpdate::First,
-                    "last" => StressUpdate::Last,
-                    _ => StressUpdate::Musl,
-                },
-                ..ExplicitSettings::default()
-            },
-            steps: case.count("steps")?,
-            tolerance: case.number("tolerance")?,
+            explicit: explicit_settings(case)?,
+            steps: declared(case, "steps", Parameters::count)?.unwrap_or(1),
+            tolerance: declared(case, "tolerance", Parameters::number)?
+                .unwrap_or(QuasiStaticSettings::default().tolerance),
+            integration: integration(case)?,
         })
     }
 
@@ -154,6 +189,7 @@ impl Method {
                     step,
                     tolerance,
                     band,
+                    integration: self.integration,
                     ..ImplicitSettings::default()
                 }),
                 _ => Chosen::Explicit(ExplicitSettings {
@@ -194,6 +230,57 @@ impl Method {
         };
         band.width(&Vector3::new(normal.x, normal.y, 0.0))
     }
+}
+
+/// A parameter, if the study has it: it leaves out those of solvers that it does not permit.
+fn declared<'a, T>(
+    case: &'a Parameters,
+    name: &str,
+    read: impl Fn(&'a Parameters, &str) -> Result<T, ParameterError>,
+) -> Result<Option<T>, StudyError> {
+    Ok(match case.get(name) {
+        Some(_) => Some(read(case, name)?),
+        None => None,
+    })
+}
+
+fn explicit_settings(case: &Parameters) -> Result<ExplicitSettings, StudyError> {
+    let Some(cfl) = declared(case, "cfl", Parameters::number)? else {
+        return Ok(ExplicitSettings::default());
+    };
+    let order = case.size("order")?;
+    Ok(ExplicitSettings {
+        cfl,
+        transfer: match case.choice("transfer")? {
+            "pic" => Transfer::Pic,
+            "apic" => Transfer::Apic,
+            "xpic" => Transfer::Xpic { order },
+            "fmpm" => Transfer::Fmpm { order },
+            _ => Transfer::Flip { pic: 0.0 },
+        },
+        stress_update: match case.choice("update")? {
+            "first" => StressUpdate::First,
+            "last" => StressUpdate::Last,
+            _ => StressUpdate::Musl,
+        },
+        ..ExplicitSettings::default()
+    })
+}
+
+fn integration(case: &Parameters) -> Result<Integration, StudyError> {
+    Ok(match declared(case, "integration", Parameters::choice)? {
+        Some("theta") => Integration::Theta {
+            weight: case.number("weight")?,
+        },
+        Some("newmark") => Integration::Newmark {
+            beta: 0.25,
+            gamma: 0.5,
+        },
+        Some(_) => Integration::GeneralizedAlpha {
+            spectral_radius: case.number("spectral_radius")?,
+        },
+        None => ImplicitSettings::default().integration,
+    })
 }
 
 /// A solver and its settings.

@@ -34,8 +34,16 @@ fn problem(name: &str) -> Box<dyn Runs> {
 }
 
 /// Parameters that are handed to the problem.
-const HANDED: [&str; 7] = [
-    "h", "solver", "shape", "transfer", "update", "cfl", "threads",
+const HANDED: [&str; 9] = [
+    "h",
+    "solver",
+    "shape",
+    "transfer",
+    "update",
+    "cfl",
+    "steps",
+    "integration",
+    "threads",
 ];
 
 impl Study for WorkPrecision {
@@ -91,9 +99,10 @@ impl Study for WorkPrecision {
                 &["linear", "gimp", "cpdi"]
             };
             let bar = base("tensile-bar")
+                .set("steps", 150_u64)
                 .sweep("h", spacings.iter().copied())
                 .sweep("shape", shapes.iter().copied());
-            cases.push(bar.clone().set("solver", "quasi-static"));
+            cases.push(bar.clone().sweep("solver", ["quasi-static", "implicit"]));
             let transfers: &[&str] = if quick {
                 &["flip"]
             } else {
@@ -156,7 +165,12 @@ fn smooth(base: Overrides, cells: &[f64], quick: bool) -> Vec<Overrides> {
         base.clone()
             .sweep("shape", ["cpdi", "bspline2"])
             .sweep("update", ["first", "last"]),
-        base.sweep("shape", ["cpdi", "bspline2"]).set("cfl", 0.8),
+        base.clone()
+            .sweep("shape", ["cpdi", "bspline2"])
+            .set("cfl", 0.8),
+        base.set("solver", "implicit")
+            .sweep("shape", ["gimp", "cpdi"])
+            .sweep("steps", [8_u64, 16, 32]),
     ]
 }
 
@@ -179,6 +193,10 @@ impl Point {
             scheme = format!("{scheme}, {}", row.transfer);
             let (update, cfl) = (case.choice("update")?, case.number("cfl")?);
             scheme = format!("{scheme}, {update}, cfl {cfl}");
+        }
+        if row.solver == "implicit" {
+            let (integration, steps) = (case.choice("integration")?, case.count("steps")?);
+            scheme = format!("{scheme}, {integration}, {steps} steps");
         }
         Ok(Self {
             problem: case.choice("problem")?.to_owned(),

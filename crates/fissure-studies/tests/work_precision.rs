@@ -14,6 +14,9 @@ fn the_frontier_holds_what_nothing_beats() {
         "transfer=flip",
         "update=musl",
         "cfl=0.4",
+        "solver=explicit",
+        "steps=1",
+        "integration=theta",
         "repeats=1",
     ];
     let rows = rows("work-precision", &settings);

@@ -81,7 +81,7 @@ pub mod prelude {
     pub use fissure_solvers::{
         Averaging, EmbeddedCrack, EmbeddedForm, EmbeddedJump, Implicit, ImplicitSettings,
         Integration, Iterative, LinearSolver, LoadControl, Method, NewtonStop, Preconditioning,
-        Product, QuasiStatic, QuasiStaticSettings, StepStatistics,
+        Product, QuasiStatic, QuasiStaticSettings, Safeguard, StepStatistics,
     };
     pub use fissure_solvers::{BandSource, Explicit, ExplicitSettings, StressUpdate, Transfer};
     pub use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};

@@ -13,4 +13,5 @@ mod empty;
 mod faces;
 mod far;
 mod light_nodes;
+mod long_steps;
 mod twins;

@@ -69,10 +69,9 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
     transfers.spread(
         scene,
         sums,
-        Given {
-            momentum: true,
+        Given::Momentum {
             affine: false,
-            forces: None,
+            forces: false,
         },
     )
 }
@@ -96,15 +95,7 @@ pub(crate) fn internal_forces<S: Shape<D>, const D: usize>(
     sums: &mut NodeSums<D>,
     at: At,
 ) -> Result<(), (usize, usize)> {
-    transfers.spread(
-        scene,
-        sums,
-        Given {
-            momentum: false,
-            affine: false,
-            forces: Some(at),
-        },
-    )
+    transfers.spread(scene, sums, Given::Forces(at))
 }
 
 /// The same, by the links where they are not what the shape functions say.

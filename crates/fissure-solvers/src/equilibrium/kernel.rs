@@ -101,6 +101,9 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             }
             if transfers.kinematics == Kinematics::Axisymmetric {
                 f.m33 *= 1.0 + way[0] / x[0];
+                if let Some(factors) = factors {
+                    f.m33 *= factors[run.start as usize + row];
+                }
             }
             new.deformation_gradient[row] = f;
             new.position[row] = x + way;

@@ -3,12 +3,14 @@
 //!
 //! `links` lists which nodes a particle reaches at the start of the step, `kernel` strains the
 //! particles, `averages` gives those of a patch one volume change, `one_strain` one strain, `balance` sums forces, `stiffness` differentiates them, `freedoms` takes out what
-//! conditions hold, `system` solves for a correction, `pace` chooses step lengths, `failure` and
+//! conditions hold, `system` solves for a correction, `descent` says when a correction is good
+//! enough, `pace` chooses step lengths, `failure` and
 //! `statistics` say how an attempt ended.
 
 pub(crate) mod averages;
 pub(crate) mod balance;
 pub(crate) mod choice;
+pub(crate) mod descent;
 pub(crate) mod divided;
 pub(crate) mod failure;
 pub(crate) mod freedoms;

@@ -9,6 +9,7 @@ use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use super::averages::volumetric;
 use super::links::{Link, Links, Member, Patch};
 use crate::linear::{BlockMatrix, BlockPattern};
 
@@ -308,10 +309,13 @@ impl<'a, const D: usize, const V: usize> Strained<'a, D, V> {
         let gradient = self.relative * self.links[link].gradient;
         let mut strain = self.strain(&gradient, self.links[link].weight);
         if let Some(mean) = self.means.get(link) {
-            let volumetric = (mean - gradient) / D as f64;
+            let own = volumetric(gradient, self.links[link].weight, self.inverse_radius);
+            // The hoop strain is the third.
+            let rows = if self.inverse_radius > 0.0 { 3 } else { D };
+            let further = (mean - own) / rows as f64;
             for column in 0..D {
-                for axis in 0..D {
-                    strain[(axis, column)] += volumetric[column];
+                for row in 0..rows {
+                    strain[(row, column)] += further[column];
                 }
             }
         }
@@ -428,7 +432,8 @@ pub(crate) fn relative<const D: usize>(
     SMatrix::from_fn(|i, j| transposed[(i, j)])
 }
 
-fn inverse_radius<const D: usize>(scene: &Scene<D>, position: &SVector<f64, D>) -> f64 {
+/// `1/r` in axisymmetry, else 0.
+pub(super) fn inverse_radius<const D: usize>(scene: &Scene<D>, position: &SVector<f64, D>) -> f64 {
     match scene.kinematics() {
         Kinematics::Axisymmetric => position[0].recip(),
         _ => 0.0,

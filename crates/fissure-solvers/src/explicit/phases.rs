@@ -15,7 +15,7 @@ use crate::checks::outside;
 use crate::constraints::Constraints;
 use crate::loads::Loads;
 use crate::nodes::{Field, NodeSums, element, vector};
-use crate::transfers::{At, Given, Transfers};
+use crate::transfers::{Given, Transfers};
 
 /// Share of the mean particle mass below which a node holds round-off and feels no force.
 const NO_MASS: f64 = 1e-16;
@@ -60,11 +60,10 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
     let spread = transfers.spread(
         scene,
         sums,
-        Given {
-            momentum: true,
+        Given::Momentum {
             // A column that an earlier solver left is not this one's.
             affine: settings.transfer == Transfer::Apic,
-            forces: (settings.stress_update != StressUpdate::First).then_some(At::Start),
+            forces: settings.stress_update != StressUpdate::First,
         },
     );
     spread.map_err(|(body, index)| outside(scene, body, index))

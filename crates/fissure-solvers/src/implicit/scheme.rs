@@ -63,6 +63,21 @@ impl Scheme {
         matches!(self, Self::Alpha(_))
     }
 
+    /// The longest stable step, if there is one, over the time that the fastest wave needs across a cell.
+    ///
+    /// A node's change of velocity reaches it again as `r = S⁺S` of it, `0 ≤ r ≤ 1`, while the displacement has all of it. Of an
+    /// oscillator of frequency ω with `q = k/(1 + μ k)`, `k = ω² Δt²`, the step has the trace `2 − q (1 + r μ)` and the
+    /// determinant `1 − q (1 + r μ − r)`, and is stable for `q (2 + 2 r μ − r) ≤ 4`: the least for short waves, of which particles
+    /// give next to nothing back, `r = 0`. With `ω ≤ 2 c/h` that is `Δt ≤ h/(c √(2 (1 − 2 μ)))`.
+    pub(crate) fn longest_step(&self) -> Option<f64> {
+        match self {
+            Self::Theta { weight } if *weight < 0.5 => {
+                Some((2.0 * (1.0 - 2.0 * weight)).sqrt().recip())
+            }
+            _ => None,
+        }
+    }
+
     /// Shares of the forces at the start and at the end of the step that balance inertia.
     pub(crate) fn force_shares(&self) -> (f64, f64) {
         match self {
@@ -221,6 +236,41 @@ mod tests {
             let order = order(integration);
             assert!((order - expected).abs() <= 0.02, "{integration:?}: {order}");
         }
+    }
+
+    /// An oscillator of which the particles give back `r` of each change of velocity stays bounded up to the longest step,
+    /// whatever `r`; with `r = 0` no farther.
+    #[test]
+    fn the_longest_step_is_that() {
+        for weight in [0.0, 0.1, 0.25, 0.4] {
+            let scheme = Scheme::new(Integration::Theta { weight });
+            let (first, last) = scheme.force_shares();
+            // ω = 2 for waves across two cells that take a unit of time each.
+            let size = |share: f64, returned: f64| {
+                let dt = share * scheme.longest_step().unwrap();
+                let (mut x, mut v) = (1.0_f64, 0.0);
+                for _ in 0..20_000 {
+                    let start = Start {
+                        velocity: SVector::<f64, 1>::new(v),
+                        acceleration: SVector::zeros(),
+                    };
+                    let residual = |u: f64| {
+                        let end = scheme.end(&start, &SVector::<f64, 1>::new(u), dt);
+                        -4.0 * (first * x + last * (x + u)) - end.balanced[0]
+                    };
+                    let u = residual(0.0) / (scheme.inertia(dt) + 4.0 * last);
+                    let end = scheme.end(&start, &SVector::<f64, 1>::new(u), dt);
+                    (x, v) = (x + u, v + returned * (end.velocity[0] - v));
+                }
+                x.abs()
+            };
+            for returned in [0.0, 0.25, 0.5, 0.9] {
+                assert!(size(0.99, returned) <= 1e3, "{weight} {returned}");
+            }
+            assert!(!(size(1.01, 0.0) <= 1e6), "{weight}");
+        }
+        let half = Scheme::new(Integration::Theta { weight: 0.5 });
+        assert_eq!(half.longest_step(), None);
     }
 
     /// Of a motion far too fast for the step the spectral radius is left, step by step.

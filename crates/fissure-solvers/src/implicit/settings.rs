@@ -13,7 +13,8 @@ pub enum Integration {
     /// the step for every `weight` > 0, ½ included, since nodes do not move with the mean velocity; it
     /// damps, the more the larger `weight` and the step.
     Theta {
-        /// μ, in [0, 1]; from ½ on steps of any length are stable.
+        /// μ, in [0, 1]; from ½ on steps of any length are stable, below it those of at most `h/(c √(2 (1 − 2 μ)))`,
+        /// `c` the speed of the fastest wave: longer ones are refused.
         weight: f64,
     },
     /// Generalised α [Chung and Hulbert 1993]: of second order; motions too fast for the step are damped.

@@ -24,6 +24,9 @@ use crate::nodes::NodeSums;
 use crate::placement::Placement;
 use crate::transfers::Transfers;
 
+/// By how much a step may exceed the longest stable one.
+const ROUND_OFF: f64 = 1e-12;
+
 /// Implicit material-point solver on a grid with a shape function.
 pub struct Implicit<S, const D: usize> {
     grid: Grid<D>,
@@ -108,6 +111,19 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         self.placement.update(&self.grid, &self.shape, scene)?;
         self.carried.align(scene);
         Ok(())
+    }
+
+    /// Refuses a step that the scheme is not stable for.
+    fn check_stable(&self, scene: &Scene<D>, dt: f64) -> Result<(), SolveError> {
+        let Some(share) = self.scheme.longest_step() else {
+            return Ok(());
+        };
+        let speeds = scene.bodies().iter().map(Body::wave_speed);
+        let longest = share * self.grid.spacing() / speeds.fold(0.0, f64::max);
+        match dt <= longest * (1.0 + ROUND_OFF) {
+            true => Ok(()),
+            false => Err(SolveError::UnstableStep { step: dt, longest }),
+        }
     }
 
     /// Tries a step of length `dt`; the trial motion of the scene holds its end.
@@ -285,6 +301,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Implicit<S, D> {
         check_until(scene, until)?;
         self.prepare(scene)?;
         let mut dt = self.pace.length(until - scene.time());
+        self.check_stable(scene, dt)?;
         let mut cuts = 0;
         loop {
             self.statistics = StepStatistics {

@@ -12,17 +12,14 @@
 //! One thread, whatever the pool: a parallel factorisation would change the last bits.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::perm::PermRef;
-use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
-    SymmetricOrdering, factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
+    LdltRef, LltRef, SymbolicCholeskyRaw, supernodal::SupernodalLdltRef,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::blocks::{BlockMatrix, BlockPattern};
-use super::dissection::nested_dissection;
+use super::elimination::{Elimination, Plan};
 use super::krylov::{KrylovSettings, Operator, gmres, norm};
 use super::preconditioner::Preconditioner;
 use super::unsymmetric::Unsymmetric;
@@ -53,14 +50,9 @@ pub struct Solved {
 /// A direct solver for matrices of one pattern.
 pub struct Direct<const D: usize> {
     pattern: BlockPattern,
-    /// Order of elimination of the unknowns, and its inverse.
-    order: Vec<u32>,
-    inverse: Vec<u32>,
-    /// The lower triangle by columns.
-    starts: Vec<u32>,
-    rows: Vec<u32>,
+    plan: Plan,
+    /// Of the lower triangle.
     values: Vec<f64>,
-    symbolic: SymbolicCholesky<u32>,
     factor_values: Vec<f64>,
     memory: MemBuffer,
     unsymmetric: Option<Unsymmetric<D>>,
@@ -74,7 +66,7 @@ pub struct Direct<const D: usize> {
 impl<const D: usize> std::fmt::Debug for Direct<D> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Direct")
-            .field("size", &self.order.len())
+            .field("size", &self.plan.order.len())
             .field("factor", &self.factor)
             .field("entries", &self.factor_values.len())
             .finish_non_exhaustive()
@@ -88,40 +80,30 @@ impl<const D: usize> Direct<D> {
     /// # Errors
     /// [`LinearError::Memory`].
     pub fn new(pattern: &BlockPattern, positions: &[[f64; D]]) -> Result<Self, LinearError> {
-        let nodes = nested_dissection(pattern, positions);
-        let components = |&node: &u32| (0..D as u32).map(move |axis| D as u32 * node + axis);
-        let order: Vec<u32> = nodes.iter().flat_map(components).collect();
-        let mut inverse = vec![0; order.len()];
-        for (place, &unknown) in order.iter().enumerate() {
-            inverse[unknown as usize] = place as u32;
-        }
-        let (starts, rows) = lower_triangle::<D>(pattern);
-        let size = order.len();
-        let lower = SymbolicSparseColMatRef::new_checked(size, size, &starts, None, &rows);
-        let symbolic = factorize_symbolic_cholesky(
-            lower,
-            Side::Lower,
-            SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size)),
-            CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..Default::default()
-            },
-        )
-        .map_err(|_| LinearError::Memory)?;
+        Self::with_elimination(pattern, positions, Elimination::default())
+    }
+
+    /// The same in another order of elimination.
+    ///
+    /// # Errors
+    /// [`LinearError::Memory`].
+    pub fn with_elimination(
+        pattern: &BlockPattern,
+        positions: &[[f64; D]],
+        elimination: Elimination,
+    ) -> Result<Self, LinearError> {
+        let plan = Plan::new(pattern, positions, elimination)?;
+        let symbolic = &plan.symbolic;
         let request = StackReq::any_of(&[
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
         ]);
         Ok(Self {
             pattern: pattern.clone(),
-            values: vec![0.0; rows.len()],
-            order,
-            inverse,
-            starts,
-            rows,
+            values: vec![0.0; plan.rows.len()],
             factor_values: Vec::new(),
             memory: MemBuffer::try_new(request).map_err(|_| LinearError::Memory)?,
-            symbolic,
+            plan,
             unsymmetric: None,
             scale: Vec::new(),
             damping: 0.0,
@@ -148,7 +130,7 @@ impl<const D: usize> Direct<D> {
 
     /// Numbers in the factor of a symmetric matrix.
     pub fn factor_entries(&self) -> usize {
-        self.symbolic.len_val()
+        self.plan.symbolic.len_val()
     }
 
     /// Factorises a matrix, scaled and with `damping` added to its scaled diagonal: by `L Lᵀ` where it is
@@ -171,7 +153,7 @@ impl<const D: usize> Direct<D> {
             return Err(LinearError::NotFinite);
         }
         self.fill(matrix);
-        self.factor_values.resize(self.symbolic.len_val(), 0.0);
+        self.factor_values.resize(self.plan.symbolic.len_val(), 0.0);
         self.symmetric = asymmetry <= SYMMETRIC;
         if self.cholesky() {
             self.factor = Some(Factor::Cholesky);
@@ -190,7 +172,7 @@ impl<const D: usize> Direct<D> {
     }
 
     fn factorise_unsymmetric(&mut self, matrix: &BlockMatrix<D>) -> Result<(), LinearError> {
-        let columns = PermRef::new_checked(&self.order, &self.inverse, self.order.len());
+        let columns = self.plan.permutation();
         let unsymmetric = match &mut self.unsymmetric {
             Some(unsymmetric) => unsymmetric,
             none => none.insert(Unsymmetric::new(&self.pattern, columns)?),
@@ -231,10 +213,8 @@ impl<const D: usize> Direct<D> {
 
     /// `L Lᵀ`; false where a pivot is not positive.
     fn cholesky(&mut self) -> bool {
-        let size = self.order.len();
-        let lower =
-            SymbolicSparseColMatRef::new_checked(size, size, &self.starts, None, &self.rows);
-        let done = self.symbolic.factorize_numeric_llt(
+        let lower = self.plan.lower();
+        let done = self.plan.symbolic.factorize_numeric_llt(
             &mut self.factor_values,
             SparseColMatRef::new(lower, &self.values),
             Side::Lower,
@@ -248,10 +228,8 @@ impl<const D: usize> Direct<D> {
 
     /// `L D Lᵀ` without pivoting; false where a pivot is zero.
     fn signed_cholesky(&mut self) -> bool {
-        let size = self.order.len();
-        let lower =
-            SymbolicSparseColMatRef::new_checked(size, size, &self.starts, None, &self.rows);
-        let done = self.symbolic.factorize_numeric_ldlt(
+        let lower = self.plan.lower();
+        let done = self.plan.symbolic.factorize_numeric_ldlt(
             &mut self.factor_values,
             SparseColMatRef::new(lower, &self.values),
             Side::Lower,
@@ -263,7 +241,7 @@ impl<const D: usize> Direct<D> {
         if done.is_err() {
             return false;
         }
-        if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
+        if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.plan.symbolic.raw() {
             let factor = SupernodalLdltRef::new(symbolic, &self.factor_values);
             for supernode in 0..symbolic.n_supernodes() {
                 let block = factor.supernode(supernode).val();
@@ -364,16 +342,22 @@ impl<const D: usize> Direct<D> {
     fn back_substitute(&self, x: &mut [f64]) -> Result<(), LinearError> {
         let rows = x.len();
         let column = MatMut::from_column_major_slice_mut(x, rows, 1);
-        let request = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+        let request = self
+            .plan
+            .symbolic
+            .solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut memory = MemBuffer::try_new(request).map_err(|_| LinearError::Memory)?;
         let stack = MemStack::new(&mut memory);
         match (self.factor, &self.unsymmetric) {
-            (Some(Factor::Cholesky), _) => LltRef::new(&self.symbolic, &self.factor_values)
+            (Some(Factor::Cholesky), _) => LltRef::new(&self.plan.symbolic, &self.factor_values)
                 .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
-            (Some(Factor::SignedCholesky), _) => LdltRef::new(&self.symbolic, &self.factor_values)
-                .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
+            (Some(Factor::SignedCholesky), _) => LdltRef::new(
+                &self.plan.symbolic,
+                &self.factor_values,
+            )
+            .solve_in_place_with_conj(Conj::No, column, Par::Seq, stack),
             (Some(Factor::Lu), Some(lu)) => {
-                let columns = PermRef::new_checked(&self.order, &self.inverse, rows);
+                let columns = self.plan.permutation();
                 lu.back_substitute(columns, column)?;
             }
             _ => return Err(LinearError::Singular),
@@ -419,24 +403,4 @@ impl<const D: usize> Operator for Scaled<'_, D> {
         self.product(x, y);
         Ok(())
     }
-}
-
-/// Columns of the lower triangle: where each begins, and the rows of its entries.
-fn lower_triangle<const D: usize>(pattern: &BlockPattern) -> (Vec<u32>, Vec<u32>) {
-    let (mut starts, mut rows) = (vec![0], Vec::new());
-    for node in 0..pattern.nodes() {
-        for axis in 0..D {
-            for &other in pattern.neighbours(node) {
-                let other = other as usize;
-                let first = match other.cmp(&node) {
-                    std::cmp::Ordering::Less => continue,
-                    std::cmp::Ordering::Equal => axis,
-                    std::cmp::Ordering::Greater => 0,
-                };
-                rows.extend((first..D).map(|a| (D * other + a) as u32));
-            }
-            starts.push(rows.len() as u32);
-        }
-    }
-    (starts, rows)
 }

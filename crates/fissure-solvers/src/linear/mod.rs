@@ -9,6 +9,7 @@
 mod blocks;
 mod direct;
 mod dissection;
+mod elimination;
 mod krylov;
 mod preconditioner;
 mod unsymmetric;
@@ -16,6 +17,7 @@ mod unsymmetric;
 pub use blocks::{BlockMatrix, BlockPattern};
 pub use direct::{Direct, Solved};
 pub use dissection::nested_dissection;
+pub use elimination::Elimination;
 pub use krylov::{KrylovSettings, Operator, Outcome, Stop, conjugate_gradients, gmres};
 pub use preconditioner::{Diagonal, Identity, Incomplete, NodeBlocks, Preconditioner};
 

@@ -6,7 +6,7 @@ use super::*;
 
 /// Stiffness of an elastic grid of unit cells with `n` nodes along each axis, the nodes at the lower end of
 /// axis 0 held; positions of the nodes.
-fn elastic<const D: usize>(n: [usize; D]) -> (BlockMatrix<D>, Vec<[f64; D]>) {
+pub(super) fn elastic<const D: usize>(n: [usize; D]) -> (BlockMatrix<D>, Vec<[f64; D]>) {
     elastic_with(n, 0.0)
 }
 

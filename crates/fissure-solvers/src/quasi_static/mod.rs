@@ -23,5 +23,5 @@ mod step;
 mod trial;
 
 pub use embedded_crack::{EmbeddedCrack, EmbeddedForm, EmbeddedJump};
-pub use settings::{Averaging, LoadControl, QuasiStaticSettings};
+pub use settings::{Averaging, LoadControl, QuasiStaticSettings, Safeguard};
 pub use step::QuasiStatic;

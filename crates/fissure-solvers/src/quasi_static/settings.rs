@@ -36,8 +36,8 @@ pub enum Averaging {
     /// Nothing.
     #[default]
     None,
-    /// The change of their volume. Against locking of nearly incompressible bodies (F-bar, B-bar); in plane strain
-    /// and in space.
+    /// The change of their volume. Against locking of nearly incompressible bodies (F-bar, B-bar); not in
+    /// plane stress.
     Volume,
     /// All of it: one strain per cell. Against the locking of smeared cracks oblique to the grid, with a law that keeps
     /// no elastic shear on a crack; not in axisymmetry.
@@ -46,6 +46,18 @@ pub enum Averaging {
         /// 1 locks again.
         hourglass: f64,
     },
+}
+
+/// What a Newton iteration at a given load does when a correction leaves more unbalanced than before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Safeguard {
+    /// Takes it back and solves again with a stiffer system [Levenberg 1944; Marquardt 1963]. Fit for open cracks,
+    /// whose tangent is next to nothing.
+    #[default]
+    Stiffening,
+    /// Takes a half of it, a quarter and so on, until the residual falls (line search [Armijo 1966]), also where
+    /// a law refuses what the whole leads to. Fit for smooth laws and large steps.
+    LineSearch,
 }
 
 /// Choices of the quasi-static solver.
@@ -62,8 +74,11 @@ pub struct QuasiStaticSettings {
     /// Residual forces over the largest reaction so far at which a step is in equilibrium; in
     /// (0, 1e-2].
     pub tolerance: f64,
-    /// Newton iterations before a step is cut; ≥ 1.
+    /// Newton iterations before a step is cut, tries of a shorter correction among them; ≥ 1.
     pub max_iterations: usize,
+    /// What an iteration does when a correction leaves more unbalanced. At a given load only: an iteration that
+    /// follows a path chooses among the points that its control permits.
+    pub safeguard: Safeguard,
     /// How often a step may be halved before it fails; at most 40.
     pub max_cuts: usize,
     /// What the particles of a cell have in common.
@@ -97,6 +112,7 @@ impl Default for QuasiStaticSettings {
             stabilisation: 0.0,
             tolerance: 1e-8,
             max_iterations: 40,
+            safeguard: Safeguard::default(),
             max_cuts: 12,
             averaging: Averaging::None,
             band: BandSource::default(),

@@ -184,15 +184,11 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
     fn check_kinematics(&self, scene: &Scene<D>) -> Result<(), SolveError> {
         let refuse = |what| Err(SolveError::Unsupported { what });
         let kinematics = scene.kinematics();
-        let whole = matches!(
-            kinematics,
-            Kinematics::PlaneStrain { .. } | Kinematics::Solid
-        );
+        // In plane stress the thickness follows the stress.
+        let whole = !matches!(kinematics, Kinematics::PlaneStress { .. });
         let axial = kinematics == Kinematics::Axisymmetric;
         match self.settings.averaging {
-            Averaging::Volume if !whole => {
-                refuse("averaging volume changes other than in plane strain and in space")
-            }
+            Averaging::Volume if !whole => refuse("averaging volume changes in plane stress"),
             Averaging::Strain { .. } if axial => refuse("averaging strains in axisymmetry"),
             _ if self.embedded.is_none() => Ok(()),
             _ if axial => refuse("an embedded crack in axisymmetry"),

@@ -4,6 +4,7 @@
 
 mod embedded;
 mod implex;
+mod line_search;
 mod locking;
 mod one_strain;
 mod snap_back;

@@ -165,6 +165,7 @@ impl Pull {
         let mut history = History::at_rest();
         let mut elongation = 0.0;
         let mut stopped = None;
+        let mut idle = vec!["left", "right"];
         while scene.time() < loading.end {
             let report = match solver.step(&mut scene, loading.end) {
                 Ok(report) => report,
@@ -178,6 +179,7 @@ impl Pull {
                     return Err(StudyError::failed(doing)(error));
                 }
             };
+            idle.retain(|grip| scene.reaction(grip).is_none_or(|force| force.amax() == 0.0));
             elongation += loading.at(report.time) * report.dt;
             let (energy, load) = (scene.energy(), load(&scene, axis));
             history.push(elongation, load, energy.stored, energy.dissipated);
@@ -190,6 +192,15 @@ impl Pull {
                 .map_err(StudyError::failed("watching the run"))?;
         }
         let wall_s = start.elapsed().as_secs_f64();
+        if let (Some(grip), None) = (idle.first(), &stopped) {
+            let reason =
+                format!("the {grip} grip reaches no node of the bar: choose a smaller gap");
+            return Err(StudyError::combination(
+                case,
+                &["gap", "offset", "h"],
+                &reason,
+            ));
+        }
         Ok(Finished {
             history,
             scene,

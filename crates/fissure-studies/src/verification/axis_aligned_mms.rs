@@ -85,7 +85,7 @@ impl Problem for AxisAlignedMms {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = method::parameters(&SPACINGS, &["explicit"]);
+        let mut parameters = method::parameters(&SPACINGS, &["explicit", "implicit"]);
         parameters.extend([
             Parameter::number(
                 "amplitude",
@@ -122,9 +122,24 @@ impl Problem for AxisAlignedMms {
                 .sweep("shape", shapes.iter().copied())
                 .sweep("transfer", transfers.iter().copied())
         };
+        // So small that particles stay where they are in their cells: nothing but the scheme in time is seen.
+        let still = || {
+            Overrides::new()
+                .set("h", SPACINGS[1])
+                .set("amplitude", 1e-4)
+        };
+        let implicit = |steps: &[u64]| {
+            still()
+                .set("solver", "implicit")
+                .sweep("steps", steps.iter().copied())
+        };
         if quick {
-            return vec![over_h(&["linear", "gimp"], &["flip"])];
+            return vec![
+                over_h(&["linear", "gimp"], &["flip"]),
+                implicit(&[4, 8, 16]).sweep("integration", ["generalized-alpha", "theta"]),
+            ];
         }
+        let steps = [4, 8, 16, 32, 64, 128];
         vec![
             over_h(&["linear", "gimp", "cpdi"], &["flip"]),
             over_h(&["bspline2", "bspline3"], &["flip"]).set("margin", "0.5"),
@@ -133,7 +148,16 @@ impl Problem for AxisAlignedMms {
                 .set("h", SPACINGS[1])
                 .set("shape", "gimp")
                 .sweep("update", ["first", "last", "musl"])
-                .sweep("cfl", [0.4, 0.2, 0.1, 0.05]),
+                .sweep("cfl", CFL),
+            still()
+                .sweep("update", ["first", "last", "musl"])
+                .sweep("cfl", CFL),
+            implicit(&steps)
+                .set("integration", "theta")
+                .sweep("weight", [0.5, 1.0]),
+            implicit(&steps).sweep("integration", ["newmark", "generalized-alpha"]),
+            implicit(&steps).set("spectral_radius", 0.0),
+            implicit(&steps).set("amplitude", 0.05).set("shape", "cpdi"),
         ]
     }
 
@@ -177,6 +201,9 @@ impl Problem for AxisAlignedMms {
 
 /// Spacings of the default run, m.
 const SPACINGS: [f64; 3] = [1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
+
+/// Shares of the longest explicit step over which orders in time are seen.
+const CFL: [f64; 4] = [0.4, 0.2, 0.1, 0.05];
 
 /// The square on rollers.
 fn square(law: &NeoHookean, margin: f64, h: f64) -> Result<Scene<2>, SceneError> {

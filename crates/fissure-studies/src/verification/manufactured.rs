@@ -56,13 +56,20 @@ impl<M: Motion> Following<M> {
         let field = Arc::new(NodalForce::new(&self.grid));
         let shared = Arc::clone(&field);
         self.scene
-            .body_force(move |x, _| shared.at(x))
+            .body_force(move |x, t| shared.at(x, t))
             .set_velocity("body", |x| motion.first_velocity(x))
             .map_err(StudyError::failed("setting up the motion"))?;
         let mut solver = method.build(self.grid, BandSource::default(), self.end)?;
         let mut wall_s = 0.0;
         while self.scene.time() < self.end {
-            field.update(&self.scene, |id, t| motion.body_force(&first[id], t));
+            let now = self.scene.time();
+            // Explicit steps ask for the forces at their start alone.
+            let ahead = match method.solver.as_str() {
+                "implicit" => self.end / method.steps as f64,
+                _ => 0.0,
+            };
+            let times = [now, now + ahead];
+            field.update(&self.scene, times, |id, t| motion.body_force(&first[id], t));
             let start = Instant::now();
             solver
                 .step(&mut self.scene, self.end)

@@ -102,7 +102,7 @@ impl Problem for VortexMms {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = method::parameters(&SPACINGS, &["explicit"]);
+        let mut parameters = method::parameters(&SPACINGS, &["explicit", "implicit"]);
         parameters.extend([
             Parameter::number(
                 "amplitude",
@@ -140,6 +140,11 @@ impl Problem for VortexMms {
 
     fn cases(&self, quick: bool) -> Vec<Overrides> {
         let spacings = if quick { &SPACINGS[..2] } else { &SPACINGS[..] };
+        let still = || {
+            Overrides::new()
+                .set("h", SPACINGS[1])
+                .set("amplitude", 1e-4)
+        };
         if quick {
             return vec![
                 Overrides::new()
@@ -155,6 +160,12 @@ impl Problem for VortexMms {
                 .sweep("h", spacings.iter().copied())
                 .set("shape", "bspline2")
                 .sweep("transfer", ["apic", "fmpm"]),
+            // In time, where particles stay where they are in their cells.
+            still().sweep("cfl", [0.4, 0.2, 0.1, 0.05]),
+            still()
+                .set("solver", "implicit")
+                .sweep("integration", ["theta", "newmark", "generalized-alpha"])
+                .sweep("steps", [8_u64, 16, 32, 64, 128]),
         ]
     }
 
