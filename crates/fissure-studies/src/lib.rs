@@ -15,6 +15,7 @@ mod method;
 pub mod nairn;
 mod problem;
 mod softening_wave;
+mod stable_step;
 mod stiff;
 mod stress_intensity;
 pub mod tensile_bar;
@@ -29,6 +30,7 @@ pub fn studies() -> Vec<Box<dyn Study>> {
     studies.extend(verification::studies());
     studies.push(Box::new(work_precision::WorkPrecision));
     studies.push(Box::new(stiff::Stiff));
+    studies.push(Box::new(stable_step::StableStep));
     studies.push(Box::new(problem::Verification(
         softening_wave::SofteningWave,
     )));

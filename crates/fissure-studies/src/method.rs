@@ -244,10 +244,16 @@ fn declared<'a, T>(
     })
 }
 
-fn explicit_settings(case: &Parameters) -> Result<ExplicitSettings, StudyError> {
-    let Some(cfl) = declared(case, "cfl", Parameters::number)? else {
-        return Ok(ExplicitSettings::default());
-    };
+/// The explicit settings that the parameters say, the default ones of a study that has none.
+///
+/// # Errors
+/// A parameter that the study did not declare.
+pub fn explicit_settings(case: &Parameters) -> Result<ExplicitSettings, StudyError> {
+    let default = ExplicitSettings::default();
+    if case.get("transfer").is_none() {
+        return Ok(default);
+    }
+    let cfl = declared(case, "cfl", Parameters::number)?.unwrap_or(default.cfl);
     let order = case.size("order")?;
     Ok(ExplicitSettings {
         cfl,
@@ -263,7 +269,7 @@ fn explicit_settings(case: &Parameters) -> Result<ExplicitSettings, StudyError> 
             "last" => StressUpdate::Last,
             _ => StressUpdate::Musl,
         },
-        ..ExplicitSettings::default()
+        ..default
     })
 }
 

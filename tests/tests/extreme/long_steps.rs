@@ -1,5 +1,7 @@
 //! X8: steps of 0.5, 0.9 and 1.0 of the time a wave needs across a cell, and longer ones.
 
+use std::error::Error as _;
+
 use fissure::diagnostics::EnergyGuard;
 use fissure::prelude::*;
 
@@ -34,7 +36,7 @@ fn shaken(update: StressUpdate, cfl: f64) -> Result<f64, Error> {
     };
     let grid = Grid::over([-1.0; 2], [2.0, 1.25], H)?;
     let mut solver = Explicit::new(grid, shape::Linear, settings)?;
-    let start = scene.energy().kinetic + scene.bodies()[0].kinetic_energy();
+    let start = scene.bodies()[0].kinetic_energy();
     let mut guard = EnergyGuard::new(&scene);
     let mut most = 0.0_f64;
     for _ in 0..1000 {
@@ -66,9 +68,10 @@ fn x8_steps_up_to_the_limit_are_stable() {
 #[test]
 fn x8_steps_beyond_it_are_found() {
     for cfl in [0.78, 0.9, 1.0] {
-        let stopped = shaken(StressUpdate::Last, cfl).unwrap_err().to_string();
-        println!("stress last, cfl {cfl}: {stopped}");
-        assert!(stopped.contains("too long for their scheme"), "{stopped}");
+        let stopped = shaken(StressUpdate::Last, cfl).unwrap_err();
+        let cause = stopped.source().map(ToString::to_string).unwrap_or_default();
+        println!("stress last, cfl {cfl}: {stopped}: {cause}");
+        assert!(cause.contains("too long for their scheme"), "{stopped:?}");
     }
     for cfl in [1.01, 1.5, 10.0] {
         let refused = shaken(StressUpdate::Musl, cfl).unwrap_err().to_string();

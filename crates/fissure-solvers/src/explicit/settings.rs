@@ -10,7 +10,8 @@ use crate::band::BandSource;
 pub enum StressUpdate {
     /// Before them, with the velocities the step starts from. Conserves energy best.
     First,
-    /// After the nodes have moved, with their new velocities. Damps slightly; the cheapest.
+    /// After the nodes have moved, with their new velocities. Damps slightly; the cheapest. Stable to about half of the Courant
+    /// limit only (docs/choose-a-solver.md has it by shape and transfer).
     Last,
     /// After the nodes have moved, with velocities mapped back from the moved particles
     /// (modified update stress last) [Sanchez 2010, eq. 4.3.7]. Safe at nodes of little mass.
@@ -57,7 +58,8 @@ impl Transfer {
 /// Choices of the explicit solver; `Default` is FLIP with MUSL at 0.4 of the Courant limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExplicitSettings {
-    /// Share of the time that the fastest wave needs across a cell; in (0, 1].
+    /// Share of the time that the fastest wave needs across a cell; in (0, 1]. How much of it is stable depends on transfer and
+    /// stress update: MUSL with FLIP all of it.
     pub cfl: f64,
     /// How velocities travel.
     pub transfer: Transfer,
