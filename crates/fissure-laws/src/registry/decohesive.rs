@@ -194,7 +194,7 @@ pub(super) const GEOLOGICAL_PLANES: Entry = Entry {
     name: "geological-multiple",
     about: "up to six failure planes in tension, shear and compression",
     parameters: GEOLOGICAL_PARAMETERS,
-    plane_stress: true,
+    plane_stress: false,
     build: |values, space| cracking(geological::<6>(values, Planes::Multiple(None)), space),
 };
 
