@@ -51,6 +51,7 @@ pub static LAWS: &[Entry] = &[
     decohesive::SEVERAL_PLANES,
     decohesive::ROTATING_PLANE,
     decohesive::GEOLOGICAL,
+    decohesive::GEOLOGICAL_PLANES,
     anisotropic::ANISOTROPIC,
     anisotropic::IN_PLANE,
     anisotropic::TWO_CRACKS,

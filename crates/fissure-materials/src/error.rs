@@ -44,6 +44,14 @@ pub enum MaterialError {
         /// The law.
         law: &'static str,
     },
+    /// Choices that do not go together.
+    #[error("{law}: {reason}")]
+    Unsupported {
+        /// The law.
+        law: &'static str,
+        /// What does not go with what, and why.
+        reason: &'static str,
+    },
     /// A local iteration did not converge.
     #[error("{law}: no convergence in {iterations} iterations, residual {residual}")]
     NoConvergence {

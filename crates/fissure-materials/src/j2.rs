@@ -219,7 +219,7 @@ impl<H: Hardening> Material for J2<H> {
     type State = J2State;
     const NAMES: &'static [&'static str] = &["equivalent_plastic_strain"];
     const STEP_ERROR: f64 = 0.05;
-    const STEP_ERROR_IN_PLANE_STRESS: f64 = 0.07;
+    const STEP_ERROR_IN_PLANE_STRESS: f64 = 0.08;
 
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;

@@ -163,7 +163,11 @@ impl<M: Material> Material for PlaneStress<M> {
             modulus,
             modulus > 0.0,
             "finite and > 0",
-        )
+        )?;
+        // A law that has no plane stress says so at rest.
+        let rest = Increment::to(Matrix3::identity());
+        self.0.plane_stress(&rest, &self.0.initial(), false)?;
+        Ok(())
     }
 
     fn check_band(&self, band: &Band, scale: &Scale) -> Result<(), MaterialError> {

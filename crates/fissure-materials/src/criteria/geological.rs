@@ -178,8 +178,14 @@ impl Geological {
         self.evaluate(plane, softening, 0.0)
     }
 
+    /// F_n with its derivatives, and `f_n − s` held from below.
     #[inline]
-    fn evaluate(&self, plane: &OnPlane, softening: f64, least_cohesion: f64) -> Partials {
+    pub(crate) fn evaluate(
+        &self,
+        plane: &OnPlane,
+        softening: f64,
+        least_cohesion: f64,
+    ) -> Partials {
         let (strength, f_c) = (self.strength, self.compressive_strength);
         let c = self.ratio();
         let spread = 2.0 - self.chi();
@@ -295,6 +301,11 @@ impl Geological {
     /// ∂F_n/∂σ for a plane of this unit normal, 1/Pa.
     pub fn gradient(&self, stress: &Sym, normal: &Vector3<f64>, softening: f64) -> Sym {
         let partials = self.partials(&OnPlane::new(stress, normal), softening);
+        Self::gradient_of(&partials, stress, normal)
+    }
+
+    /// ∂F_n/∂σ from the derivatives on a plane.
+    pub(crate) fn gradient_of(partials: &Partials, stress: &Sym, normal: &Vector3<f64>) -> Sym {
         let traction = stress.traction(normal);
         let along = normal.dot(&traction);
         let shear = traction - normal * along;
@@ -372,9 +383,15 @@ impl FailureCriterion for Geological {
         j2 / (self.shear_strength * self.shear_strength) - self.capacity(-self.ratio() * shrunk).0
     }
 
-    /// `F_n` sees of a plane its normal and its squared traction `q` and `r`: `τ_s² = r − q²`, `S = tr σ − q`,
-    /// `M = r − q tr σ + I₂`.
     fn initiation(&self, stress: &Sym) -> Initiation {
+        self.initiation_held(stress, f64::NEG_INFINITY)
+    }
+}
+
+impl Geological {
+    /// The largest `F_n` before softening, with `1 − s` held from below. It sees of a plane its normal and its squared
+    /// traction `q` and `r`: `τ_s² = r − q²`, `S = tr σ − q`, `M = r − q tr σ + I₂`.
+    pub(crate) fn initiation_held(&self, stress: &Sym, least_cohesion: f64) -> Initiation {
         let spectrum = stress.spectrum();
         let (trace, second) = (stress.trace(), stress.i2());
         let (value, squares) = largest(spectrum.values, |q, r| {
@@ -384,7 +401,7 @@ impl FailureCriterion for Geological {
                 lateral_sum: trace - q,
                 lateral_determinant: r - q * trace + second,
             };
-            let here = self.partials(&plane, 1.0);
+            let here = self.evaluate(&plane, 1.0, least_cohesion);
             OnMohr {
                 value: here.value,
                 normal: here.normal

@@ -81,7 +81,8 @@ pub(super) fn largest(
         let mut before = slope(0.0);
         for k in 1..=INTERVALS {
             let after = slope(if k == INTERVALS { 1.0 } else { grid(k) });
-            if before > 0.0 && after < 0.0 {
+            // Zero at a point of the grid is no rare case: in pure shear the largest value is at 45° exactly.
+            if before > 0.0 && after <= 0.0 {
                 let [share, _] = bisect(grid(k - 1), grid(k), |share| slope(share) > 0.0);
                 let p = on_edge(share);
                 best.consider(at(p).value, p, 1e-13);

@@ -314,3 +314,17 @@ fn units_do_not_matter() {
         assert_eq!(a, b);
     }
 }
+
+/// Under strong compression the surface is flat in pressure, and the largest value is at 45° to round-off: at a point of the
+/// grid that is scanned, where the slope may be zero to the last bit.
+#[test]
+fn the_plane_of_pure_shear_is_found_exactly() {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    for index in 0..2000 {
+        let share = 1.0 + 1e-4 * f64::from(index);
+        let stress = Sym::diagonal(-379e6, -662e6, -681e6) * share;
+        let normal = Geological::CONCRETE.initiation(&stress).normal;
+        let gap = (normal.x.abs() - half).abs() + normal.y.abs() + (normal.z.abs() - half).abs();
+        assert!(gap < 1e-12, "{index}: {gap:e}");
+    }
+}

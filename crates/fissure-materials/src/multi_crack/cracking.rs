@@ -2,7 +2,7 @@
 
 use fissure_tensor::{Sym, Vector3};
 
-use super::{Decohesion, MultiCrack, Plane, Planes};
+use super::{Decohesion, MultiCrack, Plane, Planes, Rank};
 use crate::{Crack, Cracking, Initiation, Scale};
 
 impl<const N: usize, D: Decohesion> Cracking for MultiCrack<N, D> {
@@ -29,7 +29,11 @@ impl<const N: usize, D: Decohesion> Cracking for MultiCrack<N, D> {
     }
 
     fn failure_along(&self, stress: &Sym, normal: &Vector3<f64>, scale: &Scale) -> Option<f64> {
-        Some(self.decohesion.scaled(scale).along(stress, normal))
+        Some(
+            self.decohesion
+                .scaled(scale)
+                .along(stress, normal, Rank::First),
+        )
     }
 
     fn associated(&self) -> bool {
@@ -37,7 +41,9 @@ impl<const N: usize, D: Decohesion> Cracking for MultiCrack<N, D> {
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.decohesion.scaled(scale).initiation(stress)
+        self.decohesion
+            .scaled(scale)
+            .initiation(stress, Rank::First)
     }
 
     fn cracks(&self, state: &Self::State) -> Vec<Crack> {

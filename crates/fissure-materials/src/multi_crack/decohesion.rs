@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use fissure_tensor::{Matrix3, Sym, Vector3};
 
-use super::{Plane, turn::maximum_rate};
+use super::Plane;
 use crate::{Initiation, Isotropic, MaterialError, Scale};
 
 /// One plane as seen by its return: the rest of the point is frozen.
@@ -42,6 +42,16 @@ impl Trial {
     }
 }
 
+/// Whether a plane is the first of its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rank {
+    /// The first.
+    First,
+    /// There are others, which have been returned. Such a plane starts only where it would move: else those that do not would
+    /// take all the places.
+    Further,
+}
+
 /// How a failure plane starts, opens, slides and closes.
 pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     /// Whether the tangent is symmetric while no plane starts.
@@ -58,7 +68,13 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
         true
     }
 
-    /// Whether a plane across a sheet asks for nothing out of the sheet, neither stress nor stiffness, so
+    /// Whether the traction across a plane alone starts and opens it. Only such a plane may rotate: the stress along it, or
+    /// shear, would change as it turns and do no work.
+    fn opens_alone(&self) -> bool {
+        false
+    }
+
+    /// Whether a plane across a sheet that may be sheared asks for nothing out of the sheet, neither stress nor stiffness, so
     /// that plane stress has a closed form.
     fn has_sheet_form(&self) -> bool {
         false
@@ -93,21 +109,19 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     fn dissipated_fraction(&self, softened: f64) -> f64;
 
     /// The failure function in one direction.
-    fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64;
+    fn along(&self, stress: &Sym, normal: &Vector3<f64>, rank: Rank) -> f64;
 
     /// At least the failure function in every direction, from invariants.
     fn upper_bound(&self, stress: &Sym) -> f64;
 
     /// The largest failure function and its direction.
-    fn initiation(&self, stress: &Sym) -> Initiation;
+    fn initiation(&self, stress: &Sym, rank: Rank) -> Initiation;
 
-    /// Change of the normal that [`initiation`](Self::initiation) gives, with the stress.
-    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        maximum_rate(self, stress, stress_rate, normal)
-    }
+    /// Change of the normal that [`initiation`](Self::initiation) gives, with the stress, given as value and rate.
+    fn normal_rate(&self, stress: [&Sym; 2], normal: &Vector3<f64>, rank: Rank) -> Vector3<f64>;
 
     /// Traction on a plane at the moment at which it starts, from that beyond the surface, Pa.
-    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64>;
+    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>, rank: Rank) -> Vector3<f64>;
 
     /// The plane at the end of a step that started with `old`: the single one with
     /// `F ≤ 0` whose jump followed the flow. Changes `opening`, `slip`, `softened`, `seat`, `failed`.

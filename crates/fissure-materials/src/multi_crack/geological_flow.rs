@@ -17,7 +17,8 @@
 //! the plane), and differentiated implicitly for the tangent. The slip keeps the direction of the trial.
 //!
 //! The `F_n` that drives the jump has its cohesion `f_n − s` held at zero from below
-//! ([`Geological::flow_partials`] says why), that at which a plane starts is the printed one.
+//! ([`Geological::flow_partials`] says why), that at which the first plane starts is the printed one. A further plane starts
+//! where it would move ([`Rank::Further`]).
 //!
 //! The opening and the slip stay on unloading. A failed plane slides by Coulomb's law if a
 //! coefficient is given; the shear traction then drops to it at failure under pressure. Without one
@@ -31,7 +32,7 @@ use fissure_tensor::{Sym, Vector3};
 
 use self::opening::Opening;
 use super::{
-    Decohesion, Plane, Trial,
+    Decohesion, Plane, Rank, Trial,
     decohesion::{contact, slide},
     turn::maximum_rate,
 };
@@ -56,6 +57,16 @@ pub struct GeologicalFlow<S = Linear> {
     /// Coefficient of friction after failure, dimensionless, ≥ 0; `None`: the surface with
     /// `f_n = 0`.
     pub friction: Option<f64>,
+}
+
+impl Rank {
+    /// That of `F_n`: as printed, or as a plane moves.
+    fn least_cohesion(self) -> f64 {
+        match self {
+            Self::First => f64::NEG_INFINITY,
+            Self::Further => 0.0,
+        }
+    }
 }
 
 impl<S: Softening> GeologicalFlow<S> {
@@ -85,8 +96,8 @@ impl<S: Softening> GeologicalFlow<S> {
     }
 
     /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane.
-    fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64) -> f64 {
-        let is_below = |share: f64| !(self.surface.along(&(*stress * share), normal) > 0.0);
+    fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64, rank: Rank) -> f64 {
+        let is_below = |share: f64| !(self.along(&(*stress * share), normal, rank) > 0.0);
         bisect(0.0, most, is_below)[1]
     }
 
@@ -205,8 +216,11 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         self.softening.area(softened)
     }
 
-    fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
-        self.surface.along(stress, normal)
+    fn along(&self, stress: &Sym, normal: &Vector3<f64>, rank: Rank) -> f64 {
+        let plane = OnPlane::new(stress, normal);
+        self.surface
+            .evaluate(&plane, 1.0, rank.least_cohesion())
+            .value
     }
 
     fn upper_bound(&self, stress: &Sym) -> f64 {
@@ -215,8 +229,9 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
 
     /// The value is that of the stress, the normal that of the stress shrunk to the surface: in one
     /// large step the shear term, a square, would else outgrow the others and turn the plane.
-    fn initiation(&self, stress: &Sym) -> Initiation {
-        let reached = self.surface.initiation(stress);
+    fn initiation(&self, stress: &Sym, rank: Rank) -> Initiation {
+        let initiation = |stress: &Sym| self.surface.initiation_held(stress, rank.least_cohesion());
+        let reached = initiation(stress);
         if !(reached.value > 0.0) {
             return reached;
         }
@@ -224,8 +239,8 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         // share falls to that at which no plane is beyond, at last by leaps that square.
         let (mut share, mut normal) = (1.0, reached.normal);
         for _ in 0..30 {
-            let next = self.share_on_surface(stress, &normal, share);
-            let here = self.surface.initiation(&(*stress * next));
+            let next = self.share_on_surface(stress, &normal, share, rank);
+            let here = initiation(&(*stress * next));
             let still = next >= share * (1.0 - 4.0 * f64::EPSILON);
             (share, normal) = (next, here.normal);
             if still || !(here.value > 0.0) {
@@ -239,18 +254,26 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
     }
 
     /// That of the stress shrunk to the surface, of which the share follows: `F_n(s σ) = 0`.
-    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        let share = self.share_on_surface(stress, normal, 1.0);
+    fn normal_rate(
+        &self,
+        [stress, stress_rate]: [&Sym; 2],
+        normal: &Vector3<f64>,
+        rank: Rank,
+    ) -> Vector3<f64> {
+        let share = self.share_on_surface(stress, normal, 1.0, rank);
         let shrunk = *stress * share;
-        let gradient = self.surface.gradient(&shrunk, normal, 1.0);
+        let plane = OnPlane::new(&shrunk, normal);
+        let partials = self.surface.evaluate(&plane, 1.0, rank.least_cohesion());
+        let gradient = Geological::gradient_of(&partials, &shrunk, normal);
         let share_rate = -share * gradient.dot(stress_rate) / gradient.dot(stress);
         let shrunk_rate = *stress_rate * share + *stress * share_rate;
-        maximum_rate(self, &shrunk, &shrunk_rate, normal)
+        let along = |stress: &Sym, normal: &Vector3<f64>| self.along(stress, normal, rank);
+        maximum_rate(along, [&shrunk, &shrunk_rate], normal)
     }
 
     /// As on a proportional path.
-    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        stress.traction(normal) * self.share_on_surface(stress, normal, 1.0)
+    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>, rank: Rank) -> Vector3<f64> {
+        stress.traction(normal) * self.share_on_surface(stress, normal, 1.0, rank)
     }
 
     fn release(&self, old: &Plane, trial: &Trial) -> Plane {

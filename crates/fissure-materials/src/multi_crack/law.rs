@@ -9,6 +9,16 @@ use crate::{
     Biot, Increment, Material, MaterialError, Response, Scale, SheetStep, check_parameter,
 };
 
+const TURNS_WITH_SHEAR: MaterialError = MaterialError::Unsupported {
+    law: NAME,
+    reason: "a plane that shear or the stress along it opens cannot rotate: what it gives on turning would be lost",
+};
+
+const LEANS_OUT: MaterialError = MaterialError::Unsupported {
+    law: NAME,
+    reason: "a rotating plane in plane stress needs poisson >= 0: it would turn into the sheet",
+};
+
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
     const SPARSE: bool = true;
@@ -25,6 +35,9 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     fn check(&self) -> Result<(), MaterialError> {
         self.elastic.check_for(NAME)?;
         self.decohesion.check()?;
+        if self.planes == Planes::Rotating && !self.decohesion.opens_alone() {
+            return Err(TURNS_WITH_SHEAR);
+        }
         if let Planes::Multiple(Some(angle)) = self.planes {
             let valid = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
             check_parameter(NAME, "threshold angle", angle, valid, "in (0, π/2]")?;
@@ -60,9 +73,14 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
         self.decohesion.isotropic()
     }
 
-    /// Several planes without a potential may end on another branch a hair's breadth away (`relax.rs`).
+    /// Several planes without a potential may end on another branch a hair's breadth away (`relax.rs`), and a rotating plane
+    /// turns over at once where principal strains cross.
     fn continuous(&self) -> bool {
-        let branches = matches!(self.planes, Planes::Multiple(_)) && !self.decohesion.associated();
+        let branches = match self.planes {
+            Planes::Fixed => false,
+            Planes::Multiple(_) => !self.decohesion.associated(),
+            Planes::Rotating => true,
+        };
         self.decohesion.continuous() && !branches
     }
 
@@ -88,16 +106,20 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
             .respond::<false>(increment, old)
     }
 
-    /// Where planes stand across the sheet and stay as they start.
+    /// Where planes stand across the sheet. One that turns carries no shear, so that its own choice does not count.
+    ///
+    /// # Errors
+    /// [`MaterialError::Unsupported`] for a rotating plane and ν < 0: in a search for the thickness it would turn into the sheet.
     fn plane_stress(
         &self,
         increment: &Increment,
         old: &Self::State,
         with_tangent: bool,
     ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
-        let across = self.decohesion.has_sheet_form() && self.elastic.poisson >= 0.0;
-        if !across || self.planes == Planes::Rotating {
-            return Ok(None);
+        let rotating = self.planes == Planes::Rotating;
+        let across = rotating || self.decohesion.has_sheet_form();
+        if !(across && self.elastic.poisson >= 0.0) {
+            return if rotating { Err(LEANS_OUT) } else { Ok(None) };
         }
         let sheet = Self {
             elastic: self.elastic.sheet(),
@@ -116,7 +138,8 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     }
 
     /// Analytic but for the turning of planes that start or follow the strain (see `tangent.rs`); the trait's difference
-    /// quotient where the sweeps over planes do not converge.
+    /// quotient where the sweeps over planes do not converge, where planes were returned in turn (see `relax.rs`), and where
+    /// whichever way the strain goes on another plane starts.
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
         let law = self.scaled(&increment.external.scale);
         let step = law.step::<false>(&increment.f_new, &increment.band, old)?;

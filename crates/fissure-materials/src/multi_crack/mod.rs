@@ -48,18 +48,19 @@ mod turn;
 
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
-pub use decohesion::{Decohesion, Trial};
+pub use decohesion::{Decohesion, Rank, Trial};
 pub use geological_flow::GeologicalFlow;
 pub use mode_one::{ModeOne, Shear, Unloading};
 pub use state::{MultiCrackState, Plane};
 
 use crate::{
-    Biot, Increment, Initiation, Isotropic, MaterialError, Response, Scale,
+    Biot, Increment, Isotropic, MaterialError, Response, Scale,
     error::{check_below, check_scaled_toughness},
     sound::{CONJUGATE, sound},
     turning::{Turning, width_rate},
 };
 use relax::{elastic_strain, relax};
+use start::Next;
 use tangent::{Turn, coupled, given, stress_rate};
 
 const NAME: &str = "elastic-decohesive law with several planes";
@@ -99,6 +100,9 @@ struct Step<const N: usize> {
     /// Where the planes started from, those that started in the step included.
     start: MultiCrackState<N>,
     state: MultiCrackState<N>,
+    /// Whether no closed form says how the planes follow the strain: they were returned in turn (see
+    /// [`Relaxed`](relax::Relaxed)), or the end is on an edge ([`Next::Edge`]).
+    has_no_rate: bool,
 }
 
 impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
@@ -142,46 +146,6 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         }
     }
 
-    /// The plane that a stress asks for, if it may start; in a sheet one across it.
-    fn starting<const SHEET: bool>(
-        &self,
-        stress: &Sym,
-        state: &MultiCrackState<N>,
-        kinematics: &Biot,
-        band: &Band,
-    ) -> Result<Option<Plane>, MaterialError> {
-        let mut stress = *stress;
-        if SHEET {
-            // Needed to hold the thickness only; see `sheet.rs`.
-            stress.mandel[2] = 0.0;
-        }
-        let stress = &stress;
-        if state.planes().len() >= self.most() || self.decohesion.upper_bound(stress) <= 0.0 {
-            return Ok(None);
-        }
-        let width_of = |normal: &Vector3<f64>| band.width(&(kinematics.rotation * normal));
-        // Of two planes the wider band is the less stable.
-        let threshold = |normal: &Vector3<f64>, plane: &Plane| {
-            self.threshold(width_of(normal).max(plane.width))
-        };
-        let found = start::initiation(&self.decohesion, stress, state.planes(), threshold);
-        let Some(Initiation { value, mut normal }) = found else {
-            return Ok(None);
-        };
-        if value <= 0.0 {
-            return Ok(None);
-        }
-        if self.planes == Planes::Rotating {
-            // As in every later step, to the last bit.
-            normal = kinematics.strain().spectrum().vectors[0];
-        }
-        let width = width_of(&normal);
-        // The door saw neither this rotation nor, for a band with an edge of zero, this normal.
-        self.check_width(width)?;
-        let traction = self.decohesion.onset_traction(stress, &normal);
-        Ok(Some(Plane::new(&normal, width, traction)))
-    }
-
     /// The law of one particle (see [`Self::scaled`]) over a step.
     fn step<const SHEET: bool>(
         &self,
@@ -193,20 +157,25 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         let strain = kinematics.strain();
         let mut start = *old;
         if self.planes == Planes::Rotating {
-            turn(start.planes_mut(), &strain);
+            turn(start.planes_mut(), &leading::<SHEET>(&strain));
         }
-        let mut state = start;
+        let (mut state, mut has_no_rate) = (start, false);
         let (elastic, decohesion) = (&self.elastic, &self.decohesion);
         loop {
             let planes = state.planes_mut();
-            let stress = relax(decohesion, elastic, &strain, start.planes(), planes)?;
-            let Some(plane) = self.starting::<SHEET>(&stress, &state, &kinematics, band)? else {
+            let relaxed = relax(decohesion, elastic, &strain, start.planes(), planes)?;
+            let stress = relaxed.stress;
+            has_no_rate |= relaxed.in_turn;
+            let next = self.starting::<SHEET>(&stress, &state, &kinematics, band)?;
+            let Next::Start(plane) = next else {
+                has_no_rate |= matches!(next, Next::Edge);
                 return Ok(Step {
                     kinematics,
                     strain,
                     biot_stress: stress,
                     start,
                     state,
+                    has_no_rate,
                 });
             };
             start.push(plane);
@@ -276,13 +245,16 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         }
     }
 
-    /// The spatial tangent at a thickness that stays; `None` if the planes' does not converge.
+    /// The spatial tangent at a thickness that stays; `None` if the planes' does not converge or has no closed form.
     fn tangent_of<const SHEET: bool>(
         &self,
         step: &Step<N>,
         band: &Band,
         old: &MultiCrackState<N>,
     ) -> Option<Tangent> {
+        if step.has_no_rate {
+            return None;
+        }
         let kinematics = &step.kinematics;
         let started = step.state.planes().len() > old.planes().len();
         if !started && self.planes != Planes::Rotating {
@@ -328,8 +300,8 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         let mut state = start;
         let mut turns = [Turn::default(); N];
         let rotating = self.planes == Planes::Rotating;
-        let follow =
-            |normal: &Vector3<f64>| Turning::principal(&step.strain, normal).rate(strain_rate);
+        let led = leading::<SHEET>(&step.strain);
+        let follow = |normal: &Vector3<f64>| Turning::principal(&led, normal).rate(strain_rate);
         if rotating {
             for (turn, plane) in turns.iter_mut().zip(start.planes()) {
                 turn.normal = follow(&plane.normal());
@@ -344,7 +316,8 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
                 start.planes(),
                 planes,
             )
-            .ok()?;
+            .ok()?
+            .stress;
             let rates = self.release_rates(&start, &state, &stress);
             let mut besides = [Sym::ZERO; N];
             for (index, plane) in start.planes().iter().enumerate() {
@@ -395,6 +368,16 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
             state.push(*plane);
         }
     }
+}
+
+/// The strain whose first principal direction a rotating plane follows: in a sheet that of the strains in its plane. A plane
+/// along the sheet would open against no stress at all, and the thickness would leap to where it has none.
+fn leading<const SHEET: bool>(strain: &Sym) -> Sym {
+    let mut strain = *strain;
+    if SHEET {
+        strain.mandel[2] = -2.0 * strain.norm();
+    }
+    strain
 }
 
 /// Turns planes to the first principal direction of a strain; the opening goes along.

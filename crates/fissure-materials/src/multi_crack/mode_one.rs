@@ -13,7 +13,7 @@
 use fissure_tensor::{Matrix3, Sym, Vector3};
 
 use super::{
-    Decohesion, Plane, Trial,
+    Decohesion, Plane, Rank, Trial,
     decohesion::{contact, pressure, slide, slide_rate},
 };
 use crate::{
@@ -153,6 +153,10 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         matches!(self.shear, Shear::Elastic | Shear::Coulomb(0.0))
     }
 
+    fn opens_alone(&self) -> bool {
+        true
+    }
+
     /// The damage in shear is measured against the modulus across the plane of the solid, not of the
     /// sheet.
     fn has_sheet_form(&self) -> bool {
@@ -213,7 +217,7 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         }
     }
 
-    fn along(&self, stress: &Sym, normal: &Vector3<f64>) -> f64 {
+    fn along(&self, stress: &Sym, normal: &Vector3<f64>, _rank: Rank) -> f64 {
         let strength = self.strength;
         Rankine { strength }.along(stress, normal)
     }
@@ -223,16 +227,16 @@ impl<S: Softening> Decohesion for ModeOne<S> {
         Rankine { strength }.upper_bound(stress)
     }
 
-    fn initiation(&self, stress: &Sym) -> Initiation {
+    fn initiation(&self, stress: &Sym, _rank: Rank) -> Initiation {
         let strength = self.strength;
         Rankine { strength }.initiation(stress)
     }
 
-    fn normal_rate(&self, stress: &Sym, stress_rate: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
-        Turning::principal(stress, normal).rate(stress_rate)
+    fn normal_rate(&self, stress: [&Sym; 2], normal: &Vector3<f64>, _rank: Rank) -> Vector3<f64> {
+        Turning::principal(stress[0], normal).rate(stress[1])
     }
 
-    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>) -> Vector3<f64> {
+    fn onset_traction(&self, stress: &Sym, normal: &Vector3<f64>, _rank: Rank) -> Vector3<f64> {
         // All of it shrunk to the surface: as on a proportional path.
         let traction = stress.traction(normal);
         traction * (self.strength / normal.dot(&traction))

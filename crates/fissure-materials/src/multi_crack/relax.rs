@@ -21,6 +21,9 @@ use crate::{Isotropic, MaterialError};
 /// Returns of single planes allowed in a step.
 const MAXIMAL_RETURNS: usize = 2000;
 
+/// Round-off of the sum of so many returns over that of one.
+const SUMMED: f64 = 1e3;
+
 /// Returns of single planes between two of all at once.
 const RETURNS_BETWEEN_JUMPS: usize = 40;
 
@@ -39,7 +42,15 @@ pub(super) fn elastic_strain(strain: &Sym, planes: &[Plane]) -> Sym {
         .fold(*strain, |left, plane| left - plane.strain())
 }
 
-/// Changes `planes`, which start from `old`, to the end of the step; returns the stress.
+/// Where planes have come to.
+pub(super) struct Relaxed {
+    /// The stress that is left, Pa.
+    pub stress: Sym,
+    /// Whether each return was kept as it came: the jumps then depend on the way, not on the end of the step alone.
+    pub in_turn: bool,
+}
+
+/// Changes `planes`, which start from `old`, to the end of the step.
 ///
 /// # Errors
 /// [`MaterialError::NoConvergence`].
@@ -49,7 +60,7 @@ pub(super) fn relax<D: Decohesion>(
     strain: &Sym,
     old: &[Plane],
     planes: &mut [Plane],
-) -> Result<Sym, MaterialError> {
+) -> Result<Relaxed, MaterialError> {
     let mut point = Point {
         decohesion,
         elastic,
@@ -57,7 +68,8 @@ pub(super) fn relax<D: Decohesion>(
         old: Some(old),
     };
     let mut left = point.returned(planes);
-    if left.is_err() && planes.len() > 1 {
+    let in_turn = left.is_err() && planes.len() > 1;
+    if in_turn {
         planes.copy_from_slice(old);
         point.old = None;
         left = point.returned(planes);
@@ -72,7 +84,7 @@ pub(super) fn relax<D: Decohesion>(
         let moved = plane.opening != start.opening || plane.slip != start.slip;
         plane.moving = moved || (start.moving && plane.traction == start.traction);
     }
-    Ok(stress)
+    Ok(Relaxed { stress, in_turn })
 }
 
 /// What does not change while the planes relax.
@@ -96,8 +108,10 @@ impl<D: Decohesion> Point<'_, D> {
             let tolerance = tolerance(self.decohesion, self.elastic, self.strain, planes);
             let chosen = self.next(planes, &stress, tolerance);
             residual = chosen.as_ref().map_or(0.0, |(_, _, change)| *change);
+            // What a step left is more by round-off from where it ended: a zero increment shall not take it up again.
+            let enough = if count == 1 { 2.0 } else { 1.0 } * tolerance;
             // NaN goes on to the end, as an error.
-            if residual <= tolerance {
+            if residual <= enough {
                 return Ok(stress);
             }
             if let Some((index, next, _)) = chosen {
@@ -106,6 +120,12 @@ impl<D: Decohesion> Point<'_, D> {
             if count % RETURNS_BETWEEN_JUMPS == 0 && planes.len() > 1 {
                 self.jump_ahead(planes, tolerance);
             }
+        }
+        // Kept as they come, returns add up their round-off: what is left may be that, though it never gets below one's own.
+        let stress = stress_of(self.elastic, self.strain, planes);
+        let tolerance = tolerance(self.decohesion, self.elastic, self.strain, planes);
+        if self.old.is_none() && residual <= SUMMED * tolerance {
+            return Ok(stress);
         }
         Err(residual)
     }
@@ -207,7 +227,7 @@ impl<D: Decohesion> Point<'_, D> {
 }
 
 /// Round-off of the stress, of all the strains whose difference it is, Pa.
-fn tolerance<D: Decohesion>(
+pub(super) fn tolerance<D: Decohesion>(
     decohesion: &D,
     elastic: &Isotropic,
     strain: &Sym,

@@ -9,18 +9,150 @@
 
 use std::f64::consts::TAU;
 
-use fissure_tensor::Vector3;
+use fissure_tensor::{Band, Matrix3, Sym, Vector3};
 
-use super::{Decohesion, Plane, turn::on_cone_rate};
-use crate::Initiation;
-use fissure_tensor::Sym;
+use super::{
+    Decohesion, MultiCrack, MultiCrackState, Plane, Planes, Rank, leading, relax::tolerance,
+    turn::on_cone_rate,
+};
+use crate::{Biot, Initiation, MaterialError};
 
 /// Points on a cone.
 const POINTS: u32 = 72;
 
+/// Over the bound, so that round-off does not put a direction on a cone back inside.
+const HAIR: f64 = 1.0 + 1e-9;
+
+/// Closer than this to the bound in `sin²` a direction is on the cone.
+const ON_CONE: f64 = 1e-8;
+
+/// The directions at one angle to a plane: its normal, and `sin²` of the angle.
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: Vector3<f64>,
+    sine_squared: f64,
+}
+
+impl Cone {
+    fn misses(&self, normal: &Vector3<f64>) -> f64 {
+        (normal.cross(&self.axis).norm_squared() - self.sine_squared).abs()
+    }
+
+    /// Cosine of the angle, on the side of a direction.
+    fn cosine(&self, near: &Vector3<f64>) -> f64 {
+        let cosine = (1.0 - self.sine_squared).max(0.0).sqrt();
+        cosine.copysign(self.axis.dot(near))
+    }
+}
+
+/// Where two cones meet next to a direction.
+fn corner([one, other]: [Cone; 2], near: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let (a, b) = (one.cosine(near), other.cosine(near));
+    let between = one.axis.dot(&other.axis);
+    let across = one.axis.cross(&other.axis);
+    let rest = across.norm_squared();
+    let (x, y) = ((a - between * b) / rest, (b - between * a) / rest);
+    let square = (1.0 - x * a - y * b) / rest;
+    if !(square > 0.0) {
+        return None;
+    }
+    let side = square.sqrt().copysign(across.dot(near));
+    Some(one.axis * x + other.axis * y + across * side)
+}
+
+/// What a stress asks for when planes have been returned.
+pub(super) enum Next {
+    /// Nothing.
+    Nothing,
+    /// Nothing, but whichever way the strain goes on another plane starts: two principal stresses coincide, so that as good as
+    /// the planes there are a whole circle of directions is on the surface.
+    Edge,
+    /// This plane.
+    Start(Plane),
+}
+
+impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
+    /// What a stress asks for; in a sheet a plane across it.
+    pub(super) fn starting<const SHEET: bool>(
+        &self,
+        stress: &Sym,
+        state: &MultiCrackState<N>,
+        kinematics: &Biot,
+        band: &Band,
+    ) -> Result<Next, MaterialError> {
+        let mut stress = *stress;
+        if SHEET {
+            // Needed to hold the thickness only; see `sheet.rs`.
+            stress.mandel[2] = 0.0;
+        }
+        let stress = &stress;
+        let planes = state.planes();
+        if planes.len() >= self.most() || self.decohesion.upper_bound(stress) <= 0.0 {
+            return Ok(Next::Nothing);
+        }
+        let width_of = |normal: &Vector3<f64>| band.width(&(kinematics.rotation * normal));
+        // Of two planes the wider band is the less stable.
+        let threshold = |normal: &Vector3<f64>, plane: &Plane| {
+            self.threshold(width_of(normal).max(plane.width))
+        };
+        let found = initiation(&self.decohesion, stress, planes, threshold);
+        let Some(Initiation { value, mut normal }) = found else {
+            return Ok(Next::Nothing);
+        };
+        let slack = self.slack(stress, planes, kinematics);
+        let is_beyond = |share: f64| {
+            let stress = *stress * share;
+            self.decohesion.along(&stress, &normal, Rank::Further) > 0.0
+        };
+        if value <= 0.0 || (slack > 0.0 && !is_beyond(1.0 - slack)) {
+            let on_edge = slack > 0.0 && is_beyond(1.0 + slack) && is_edge(stress);
+            return Ok(if on_edge { Next::Edge } else { Next::Nothing });
+        }
+        if self.planes == Planes::Rotating {
+            // As in every later step, to the last bit.
+            normal = leading::<SHEET>(&kinematics.strain()).spectrum().vectors[0];
+        }
+        let width = width_of(&normal);
+        // The door saw neither this rotation nor, for a band with an edge of zero, this normal.
+        self.check_width(width)?;
+        let traction = self
+            .decohesion
+            .onset_traction(stress, &normal, rank(planes));
+        Ok(Next::Start(Plane::new(&normal, width, traction)))
+    }
+
+    /// The share of a stress by which directions may be beyond the surface that the planes there are have been returned to. A
+    /// plane that started so would do nothing, and its direction would be chance. The first has none.
+    fn slack(&self, stress: &Sym, planes: &[Plane], kinematics: &Biot) -> f64 {
+        if planes.is_empty() {
+            return 0.0;
+        }
+        let strain = kinematics.strain();
+        16.0 * tolerance(&self.decohesion, &self.elastic, &strain, planes) / stress.norm()
+    }
+}
+
+/// Two principal stresses nearer than this, over the stress, are the same.
+const SAME: f64 = 1e-9;
+
+/// Whether two principal stresses coincide.
+fn is_edge(stress: &Sym) -> bool {
+    let [first, second, third] = stress.eigenvalues();
+    (first - second).min(second - third) <= SAME * stress.norm()
+}
+
+/// Of the plane that comes to those there are.
+fn rank(planes: &[Plane]) -> Rank {
+    if planes.is_empty() {
+        Rank::First
+    } else {
+        Rank::Further
+    }
+}
+
 /// The largest failure function and its direction outside the cones; `None` if there is no such
 /// direction on them. `threshold` gives `sin²` of the angle to keep from a plane.
-pub(super) fn initiation<D: Decohesion>(
+fn initiation<D: Decohesion>(
     decohesion: &D,
     stress: &Sym,
     planes: &[Plane],
@@ -32,15 +164,19 @@ pub(super) fn initiation<D: Decohesion>(
             sine_squared >= threshold(normal, plane)
         })
     };
-    let first = decohesion.initiation(stress);
+    let rank = rank(planes);
+    let first = decohesion.initiation(stress, rank);
     if first.value <= 0.0 || free(&first.normal) {
         return Some(first);
     }
+    let cone_of = |plane: &Plane| Cone {
+        axis: plane.normal(),
+        sine_squared: threshold(&plane.normal(), plane) * HAIR,
+    };
     let mut best: Option<Initiation> = None;
     for plane in planes {
-        let axis = plane.normal();
-        // A hair outside, so that round-off does not put the direction back inside.
-        let sine_squared = threshold(&axis, plane) * (1.0 + 1e-9);
+        let cone = cone_of(plane);
+        let Cone { axis, sine_squared } = cone;
         if sine_squared >= 1.0 {
             return None;
         }
@@ -62,13 +198,24 @@ pub(super) fn initiation<D: Decohesion>(
             let (y, x) = angle.sin_cos();
             let normal = axis * cosine + (side * x + third * y) * sine;
             let value = if free(&normal) {
-                decohesion.along(stress, &normal)
+                decohesion.along(stress, &normal, rank)
             } else {
                 f64::NEG_INFINITY
             };
             Initiation { value, normal }
         };
-        let found = round(at);
+        let mut found = round(at);
+        // The walk comes to a corner with another cone by halves; it is known to round-off.
+        for other in planes.iter().map(cone_of) {
+            if other.axis != axis
+                && other.misses(&found.normal) < ON_CONE
+                && let Some(normal) = corner([cone, other], &found.normal)
+                && free(&normal)
+            {
+                let value = decohesion.along(stress, &normal, rank);
+                found = Initiation { value, normal };
+            }
+        }
         if found.value > best.map_or(f64::NEG_INFINITY, |b| b.value) {
             best = Some(found);
         }
@@ -86,24 +233,58 @@ pub(super) fn normal_rate<D: Decohesion>(
     normal: &Vector3<f64>,
     threshold: impl Fn(&Plane, &Vector3<f64>) -> [f64; 2],
 ) -> Vector3<f64> {
-    if decohesion.initiation(stress[0]).normal == *normal {
-        return decohesion.normal_rate(stress[0], stress[1], normal);
+    let rank = rank(planes);
+    if decohesion.initiation(stress[0], rank).normal == *normal {
+        return decohesion.normal_rate(stress, normal, rank);
     }
-    // The cone that it is on.
-    let mut best = (f64::INFINITY, Vector3::zeros());
+    let along = |stress: &Sym, normal: &Vector3<f64>| decohesion.along(stress, normal, rank);
+    let mut on: [Option<Turned>; 2] = [None; 2];
+    let mut gaps = [f64::INFINITY; 2];
     for (plane, rate) in planes.iter().zip(rates) {
-        let axis = plane.normal();
         let [sine_squared, sine_squared_rate] = threshold(plane, rate);
-        let gap = (normal.cross(&axis).norm_squared() - sine_squared).abs();
-        if gap < best.0 {
-            let axes = [&axis, rate];
-            best = (
-                gap,
-                on_cone_rate(decohesion, stress, axes, sine_squared_rate, normal),
-            );
+        let turned = Turned {
+            cone: Cone {
+                axis: plane.normal(),
+                sine_squared,
+            },
+            rates: (*rate, sine_squared_rate),
+        };
+        let gap = turned.cone.misses(normal);
+        if gap < gaps[0] {
+            (gaps[1], on[1]) = (gaps[0], on[0]);
+            (gaps[0], on[0]) = (gap, Some(turned));
+        } else if gap < gaps[1] {
+            (gaps[1], on[1]) = (gap, Some(turned));
         }
     }
-    best.1
+    match on {
+        [Some(one), Some(other)] if gaps[1] < ON_CONE => corner_rate([one, other], normal),
+        [Some(one), _] => {
+            let (rate, sine_squared_rate) = one.rates;
+            let axes = [&one.cone.axis, &rate];
+            on_cone_rate(along, stress, axes, sine_squared_rate, normal)
+        }
+        _ => Vector3::zeros(),
+    }
+}
+
+/// A cone with the rates of its axis and of its `sin²`.
+#[derive(Clone, Copy)]
+struct Turned {
+    cone: Cone,
+    rates: (Vector3<f64>, f64),
+}
+
+/// How the corner of two cones moves with them: `n·a = cos θ` for both, and `n·n = 1`, differentiated.
+fn corner_rate(turned: [Turned; 2], normal: &Vector3<f64>) -> Vector3<f64> {
+    let [right, other_right] = turned.map(|Turned { cone, rates }| {
+        let cosine = cone.axis.dot(normal);
+        -rates.1 / (2.0 * cosine) - normal.dot(&rates.0)
+    });
+    let [one, other] = turned.map(|turned| turned.cone.axis);
+    let system = Matrix3::from_rows(&[one.transpose(), other.transpose(), normal.transpose()]);
+    let inverse = system.try_inverse().unwrap_or_else(Matrix3::zeros);
+    inverse * Vector3::new(right, other_right, 0.0)
 }
 
 /// The largest value round a cone: a scan, and steps to either side that are halved.

@@ -5,16 +5,13 @@
 
 use fissure_tensor::{Sym, Vector3};
 
-use super::Decohesion;
-
 /// Angle, rad, and change of the stress over its size, of a difference.
 const STEP: f64 = 1e-3;
 
 /// Where `F` is largest over all directions.
-pub(super) fn maximum_rate<D: Decohesion>(
-    decohesion: &D,
-    stress: &Sym,
-    stress_rate: &Sym,
+pub(super) fn maximum_rate(
+    along: impl Fn(&Sym, &Vector3<f64>) -> f64,
+    [stress, stress_rate]: [&Sym; 2],
     normal: &Vector3<f64>,
 ) -> Vector3<f64> {
     let other = if normal.z.abs() < 0.9 {
@@ -31,7 +28,7 @@ pub(super) fn maximum_rate<D: Decohesion>(
     let change = *stress_rate * (stress.norm() / size);
     let at = |x: f64, y: f64, part: f64| {
         let turned = (normal + first * x + second * y).normalize();
-        decohesion.along(&(*stress + change * part), &turned)
+        along(&(*stress + change * part), &turned)
     };
     let (xx, yy) = (bend(|x| at(x, 0.0, 0.0)), bend(|y| at(0.0, y, 0.0)));
     let xy = mixed(|x, y| at(x, y, 0.0));
@@ -49,8 +46,8 @@ pub(super) fn maximum_rate<D: Decohesion>(
 }
 
 /// Where `F` is largest on the cone of an angle with `sine`² about an axis; all three change at these rates.
-pub(super) fn on_cone_rate<D: Decohesion>(
-    decohesion: &D,
+pub(super) fn on_cone_rate(
+    along: impl Fn(&Sym, &Vector3<f64>) -> f64,
     [stress, stress_rate]: [&Sym; 2],
     [axis, axis_rate]: [&Vector3<f64>; 2],
     sine_squared_rate: f64,
@@ -75,7 +72,7 @@ pub(super) fn on_cone_rate<D: Decohesion>(
     };
     let at = |angle: f64, part: f64| {
         let stress = *stress + *stress_rate * (part / rate);
-        decohesion.along(&stress, &direction(angle, part))
+        along(&stress, &direction(angle, part))
     };
     let turned = -mixed(at) / bend(|angle| at(angle, 0.0));
     let moved = |part: f64| direction(turned * part, part);

@@ -14,6 +14,9 @@ pub struct Isoerror;
 /// Errors below this are round-off, and one colour.
 const LEAST: f64 = 1e-16;
 
+/// Errors that are none of the law's.
+const ROUND_OFF: f64 = 1e-9;
+
 impl Study for Isoerror {
     fn name(&self) -> &'static str {
         "isoerror"
@@ -83,6 +86,13 @@ impl Study for Isoerror {
                 .field("error_stated", chosen.law.step_error())
                 .parameters(case);
             report.row(row)?;
+            if map.largest > chosen.law.step_error() + ROUND_OFF {
+                report.note(&format!(
+                    "{}: one step is {:e} from many, over what the law states",
+                    chosen.name(),
+                    map.largest
+                ))?;
+            }
             if let Some(folder) = report.out_dir() {
                 let name = format!("isoerror-{}-from-{level}.png", chosen.name());
                 draw(&chosen.name(), level, cells, &map, &folder.join(name))?;
