@@ -10,6 +10,7 @@
 //! `cargo bench -p fissure-benches --bench implicit`
 
 #![allow(missing_docs)] // criterion's macros make undocumented functions
+#![allow(clippy::print_stdout)] // What criterion does not measure: memory, errors.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use fissure::nalgebra::SMatrix;

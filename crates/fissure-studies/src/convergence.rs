@@ -37,22 +37,14 @@ impl SeriesSet {
         });
     }
 
-    /// One row for every error of every series of runs that differ in `h` alone: the order by least
-    /// squares over all spacings and between the two finest. One more for every series that differs
-    /// in `cfl` or in `steps` alone, by the distance between the final positions of neighbouring runs: the order
-    /// in the step at a given spacing, free of the error in space.
+    /// One row for every error of every series of runs that differ in `h`, in `cfl` or in `steps` alone: the order by least
+    /// squares over all of them and between the two finest. One more for every series in the step, by the distance
+    /// between the final positions of neighbouring runs: free of the error in space.
     pub fn orders(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         for series in self.series("h") {
-            let names: Vec<&str> = series[0].row.errors.iter().map(|(name, _)| name).collect();
-            for name in names {
-                let errors: Vec<f64> = series
-                    .iter()
-                    .map(|run| run.row.errors.get(name).unwrap_or(f64::NAN))
-                    .collect();
-                let spacings: Vec<f64> = series.iter().map(|run| run.row.h).collect();
-                rows.extend(self.row(&series, "h", name, &spacings, &errors));
-            }
+            let spacings: Vec<f64> = series.iter().map(|run| run.row.h).collect();
+            rows.extend(self.error_orders(&series, "h", &spacings));
         }
         for (name, step) in [
             ("cfl", (|cfl| cfl) as fn(f64) -> f64),
@@ -61,6 +53,8 @@ impl SeriesSet {
             for mut series in self.series(name) {
                 let step = |run: &Finished| step(value_of(run, name));
                 series.sort_by(|a, b| step(b).total_cmp(&step(a)));
+                let all: Vec<f64> = series.iter().map(|run| step(run)).collect();
+                rows.extend(self.error_orders(&series, name, &all));
                 let pairs = || series.windows(2);
                 let steps: Vec<f64> = pairs().map(|pair| step(pair[0])).collect();
                 let distances: Vec<f64> = pairs()
@@ -70,6 +64,21 @@ impl SeriesSet {
             }
         }
         rows
+    }
+
+    /// A row for every error of a series.
+    fn error_orders<'a>(
+        &'a self,
+        series: &'a [&Finished],
+        over: &'a str,
+        x: &'a [f64],
+    ) -> impl Iterator<Item = Row> + 'a {
+        let errors = series[0].row.errors.iter();
+        errors.filter_map(move |(name, _)| {
+            let of = |run: &&Finished| run.row.errors.get(name).unwrap_or(f64::NAN);
+            let errors: Vec<f64> = series.iter().map(of).collect();
+            self.row(series, over, name, x, &errors)
+        })
     }
 
     /// Series of runs that differ in `name` alone, each by falling value.

@@ -75,23 +75,21 @@ fn linear_functions_do_not_converge_where_particles_cross_cells() {
     assert!(order(&rows, "place_l2") <= 0.0, "have they learnt to?");
 }
 
-/// The order of the change of places as the step is halved, particles in their cells.
-fn order_in_time(study: &str, settings: &[&str], over: &str) -> f64 {
-    let rows = rows(study, settings);
-    let row = rows.iter().rfind(|row| row["over"] == over).unwrap();
-    row["order"].as_f64().unwrap_or(f64::NAN)
-}
-
+/// θ is of first order, Newmark and generalised α of second, where particles stay in their cells.
 #[test]
 fn schemes_in_time_have_their_orders() {
-    for (integration, expected) in [("theta", 1.0), ("newmark", 2.0), ("generalized-alpha", 2.0)] {
+    for (integration, bounds) in [
+        ("theta", 0.7..1.1),
+        ("newmark", 1.8..2.2),
+        ("generalized-alpha", 1.8..2.2),
+    ] {
         let integration = format!("integration={integration}");
         let settings = [
             "solver=implicit",
             "amplitude=1e-4",
-            "h=0.0625",
+            "h=0.03125",
             "shape=linear",
-            "steps=4,8,16,32",
+            "steps=4,8,16",
             "weight=1",
             "spectral_radius=0.8",
             "transfer=flip",
@@ -100,8 +98,10 @@ fn schemes_in_time_have_their_orders() {
             "cfl=0.4",
             &integration,
         ];
-        let order = order_in_time("axis-aligned-mms", &settings, "steps");
-        assert!((order - expected).abs() <= 0.2, "{integration}: {order}");
+        let rows = rows("axis-aligned-mms", &settings);
+        let of = |row: &&Value| row["over"] == "steps" && row["measure"] == "place_l2";
+        let order = rows.iter().find(of).unwrap()["order"].as_f64().unwrap();
+        assert!(bounds.contains(&order), "{integration}: {order}");
     }
 }
 

@@ -69,7 +69,10 @@ fn x8_steps_up_to_the_limit_are_stable() {
 fn x8_steps_beyond_it_are_found() {
     for cfl in [0.78, 0.9, 1.0] {
         let stopped = shaken(StressUpdate::Last, cfl).unwrap_err();
-        let cause = stopped.source().map(ToString::to_string).unwrap_or_default();
+        let cause = stopped
+            .source()
+            .map(ToString::to_string)
+            .unwrap_or_default();
         println!("stress last, cfl {cfl}: {stopped}: {cause}");
         assert!(cause.contains("too long for their scheme"), "{stopped:?}");
     }

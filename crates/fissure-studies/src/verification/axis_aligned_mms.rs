@@ -122,10 +122,11 @@ impl Problem for AxisAlignedMms {
                 .sweep("shape", shapes.iter().copied())
                 .sweep("transfer", transfers.iter().copied())
         };
-        // So small that particles stay where they are in their cells: nothing but the scheme in time is seen.
+        // So small that particles stay where they are in their cells: nothing but the scheme in time is seen, down to the
+        // error of the grid.
         let still = || {
             Overrides::new()
-                .set("h", SPACINGS[1])
+                .set("h", SPACINGS[2])
                 .set("amplitude", 1e-4)
         };
         let implicit = |steps: &[u64]| {
@@ -136,10 +137,12 @@ impl Problem for AxisAlignedMms {
         if quick {
             return vec![
                 over_h(&["linear", "gimp"], &["flip"]),
-                implicit(&[4, 8, 16]).sweep("integration", ["generalized-alpha", "theta"]),
+                implicit(&[4, 8, 16])
+                    .set("h", SPACINGS[1])
+                    .sweep("integration", ["generalized-alpha", "theta"]),
             ];
         }
-        let steps = [4, 8, 16, 32, 64, 128];
+        let steps = [4, 8, 16];
         vec![
             over_h(&["linear", "gimp", "cpdi"], &["flip"]),
             over_h(&["bspline2", "bspline3"], &["flip"]).set("margin", "0.5"),
@@ -152,7 +155,7 @@ impl Problem for AxisAlignedMms {
             still()
                 .sweep("update", ["first", "last", "musl"])
                 .sweep("cfl", CFL),
-            implicit(&steps)
+            implicit(&[8, 16, 32, 64, 128])
                 .set("integration", "theta")
                 .sweep("weight", [0.5, 1.0]),
             implicit(&steps).sweep("integration", ["newmark", "generalized-alpha"]),
