@@ -56,6 +56,7 @@ pub static LAWS: &[Entry] = &[
     anisotropic::IN_PLANE,
     anisotropic::TWO_CRACKS,
     anisotropic::CONJUGATE,
+    anisotropic::CONJUGATE_TWO_CRACKS,
     anisotropic::ELLIPTICAL,
     anisotropic::STEPPED,
     anisotropic::ORTHOTROPIC,

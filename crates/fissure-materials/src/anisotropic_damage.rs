@@ -48,9 +48,10 @@ mod tensors;
 mod tests;
 mod two_cracks;
 
-use fissure_tensor::{Matrix3, Tangent};
+use fissure_tensor::{Matrix3, Tangent, Vector3};
 
 pub use self::conjugate::ConjugateDamage;
+use self::conjugate::EitherStress;
 pub use self::crack::AnisotropicDamageState;
 pub use self::incremental::{
     EllipticalDamage, IncrementalDamage, IncrementalState, SteppedCircleDamage,
@@ -58,10 +59,10 @@ pub use self::incremental::{
 pub use self::mixed_mode::MixedMode;
 pub use self::mode::Mode;
 pub use self::orthotropic::{DamagePlane, OrthotropicDamage};
-use self::tangent::Measure;
 pub use self::two_cracks::{TwoCrackDamage, TwoCrackState};
 
 use crate::softening::Linear;
+use crate::stress_measure::{StressMeasure, Turned};
 use crate::{
     Biot, EightPoints, EightResponses, Increment, Isotropic, Material, MaterialError, Onset,
     Response, Scale, SheetStep, Softening, check_parameter,
@@ -112,6 +113,20 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
     }
 
+    /// The update with one of the stresses and its tangent.
+    fn with_tangent_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+    ) -> Result<(Response<AnisotropicDamageState>, Tangent), MaterialError> {
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step::<false>(&kinematics, increment, old)?;
+        Ok((
+            self.response::<Measure>(&kinematics, &step, old),
+            self.step_tangent::<false, Measure>(&kinematics, &step, increment),
+        ))
+    }
+
     /// The update with everything. Out of line: the way through `sound` is not to pay for it.
     #[inline(never)]
     fn full_update(
@@ -119,9 +134,37 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         increment: &Increment,
         old: &AnisotropicDamageState,
     ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
+        self.update_as::<Turned>(increment, old)
+    }
+}
+
+impl<N: Softening, T: Softening> EitherStress for AnisotropicDamage<N, T> {
+    #[inline(always)]
+    fn update_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+    ) -> Result<Response<AnisotropicDamageState>, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.step::<false>(&kinematics, increment, old)?;
-        Ok(self.response(&kinematics, &step, old, Measure::Turned))
+        Ok(self.response::<Measure>(&kinematics, &step, old))
+    }
+
+    fn update_with_tangent_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &AnisotropicDamageState,
+    ) -> Result<(Response<AnisotropicDamageState>, Option<Tangent>), MaterialError> {
+        let (response, tangent) = self.with_tangent_as::<Measure>(increment, old)?;
+        Ok((response, Some(tangent)))
+    }
+
+    fn sound_speed(&self, scale: &Scale) -> f64 {
+        self.elastic.scaled(scale).p_wave_speed()
+    }
+
+    fn normals(&self, state: &AnisotropicDamageState) -> [Option<Vector3<f64>>; 2] {
+        [state.started_normal(), None]
     }
 }
 
@@ -197,8 +240,7 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
     /// That of the sound material times the square of the longest stretch: with `σ = R·T·Rᵀ` the
     /// nominal stress is `T` times the change of the area it acts on.
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &AnisotropicDamageState, scale: &Scale) -> f64 {
-        let stretch = Biot::longest_stretch(f);
-        self.elastic.scaled(scale).p_wave_speed() * stretch * stretch
+        Turned::wave_speed(self.sound_speed(scale), Biot::longest_stretch(f))
     }
 
     fn has_history(&self, state: &AnisotropicDamageState) -> bool {
@@ -244,16 +286,9 @@ impl<N: Softening, T: Softening> Material for AnisotropicDamage<N, T> {
         increment: &Increment,
         old: &AnisotropicDamageState,
     ) -> Result<(Response<AnisotropicDamageState>, Tangent), MaterialError> {
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step::<false>(&kinematics, increment, old)?;
-        let response = match self.sound::<false>(increment, old) {
-            Some(response) => response,
-            None => self.response(&kinematics, &step, old, Measure::Turned),
-        };
-        Ok((
-            response,
-            self.step_tangent::<false>(&kinematics, &step, increment, Measure::Turned),
-        ))
+        let (found, tangent) = self.with_tangent_as::<Turned>(increment, old)?;
+        let response = self.sound::<false>(increment, old).unwrap_or(found);
+        Ok((response, tangent))
     }
 
     fn values(&self, state: &AnisotropicDamageState, out: &mut [f64]) {

@@ -23,7 +23,8 @@ use crate::{
     error::{check_below, check_scaled_toughness},
     sheet::{Thickening, in_sheet},
     softening::{Linear, opening},
-    sound::{CONJUGATE, below, sound, sound_eight},
+    sound::{below, sound, sound_eight},
+    stress_measure::Conjugate,
     turning::Turning,
 };
 
@@ -296,7 +297,7 @@ impl<S: Softening> Material for Decohesive<S> {
 
     #[inline(always)]
     fn update_eight(&self, points: &EightPoints) -> Option<EightResponses> {
-        sound_eight::<CONJUGATE>(&self.elastic, points, |place, stress| {
+        sound_eight::<Conjugate>(&self.elastic, points, |place, stress| {
             below(self.strength * points.strength[place], stress)
         })
     }
@@ -363,7 +364,7 @@ impl<S: Softening> Point<'_, S> {
         if old.width != 0.0 {
             return None;
         }
-        sound::<CONJUGATE, _>(&self.elastic, &increment.f_new, |stress| {
+        sound::<Conjugate, _>(&self.elastic, &increment.f_new, |stress| {
             below(self.strength, stress)
         })
     }

@@ -49,6 +49,7 @@ mod scalar_damage;
 mod sheet;
 pub mod softening;
 mod sound;
+mod stress_measure;
 mod tension_shear;
 #[cfg(test)]
 mod testing;

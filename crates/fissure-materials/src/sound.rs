@@ -2,28 +2,21 @@
 //!
 //! For an isotropic law the stress can be taken on the left stretch `V = (F·Fᵀ)^(1/2)`: with
 //! `E = V − 1` the stress `T = λ tr(E) 1 + 2μ E` has the principal values of the stress on the
-//! right stretch. Then
-//! - where `T` is conjugate to Biot's strain ([`CONJUGATE`]), the Cauchy stress is `σ = V·T/J = (T + E·T)/J`, since `V`
-//!   and `T` commute;
-//! - where the stress is only turned ([`TURNED`], [Nairn 2017, app. II]), it is `R·T(U)·Rᵀ = T(V)`.
+//! right stretch, and Cauchy's stress follows from it and `E` ([`StressMeasure::cauchy_on_left`]).
 //!
 //! Most particles of a run are sound and far from their strength: this is what they cost.
 
 use fissure_tensor::{Matrix3, Sym};
 
 use crate::finite_strain::LeftStrain;
+use crate::stress_measure::StressMeasure;
 use crate::{Biot, EIGHT, EightPoints, EightResponses, Isotropic, Response};
-
-/// The stress is conjugate to Biot's strain.
-pub(crate) const CONJUGATE: bool = false;
-/// The stress is turned with the material.
-pub(crate) const TURNED: bool = true;
 
 /// The response of an uncracked point if the strain is small and `accepts` rules a crack out for
 /// its stress, of which it may use the invariants only; else `None`, and the caller has to look
 /// closer.
 #[inline(always)]
-pub(crate) fn sound<const MEASURE: bool, State: Default>(
+pub(crate) fn sound<Measure: StressMeasure, State: Default>(
     elastic: &Isotropic,
     f: &Matrix3<f64>,
     accepts: impl Fn(&Sym) -> bool,
@@ -31,25 +24,16 @@ pub(crate) fn sound<const MEASURE: bool, State: Default>(
     let (strain, dilation) = LeftStrain::small(f)?;
     let stress = elastic.stress(&strain);
     accepts(&stress).then(|| Response {
-        stress: cauchy::<MEASURE>(&stress, &strain, dilation),
+        stress: Measure::cauchy_on_left(&stress, &strain, dilation),
         state: State::default(),
         stored: 0.5 * stress.dot(&strain),
         dissipated: 0.0,
     })
 }
 
+/// [`sound`] of eight points, to the last bit, with wave speeds; `None` if that closer look is needed at one of them.
 #[inline(always)]
-fn cauchy<const MEASURE: bool>(stress: &Sym, strain: &Sym, dilation: f64) -> Sym {
-    if MEASURE == TURNED {
-        return *stress;
-    }
-    (*stress + strain.commuting_product(stress)) * (1.0 / (1.0 + dilation))
-}
-
-/// [`sound`] of eight points, to the last bit, with wave speeds: those at rest times [`Biot::longest_stretch`], or its square
-/// where the stress is turned; `None` if that closer look is needed at one of them.
-#[inline(always)]
-pub(crate) fn sound_eight<const MEASURE: bool>(
+pub(crate) fn sound_eight<Measure: StressMeasure>(
     elastic: &Isotropic,
     points: &EightPoints,
     accepts: impl Fn(usize, &Sym) -> bool,
@@ -65,13 +49,9 @@ pub(crate) fn sound_eight<const MEASURE: bool>(
         let strain = &strains[place];
         let stress = elastic.stress(strain);
         all_sound &= accepts(place, &stress);
-        let cauchy = cauchy::<MEASURE>(&stress, strain, dilations[place]);
+        let cauchy = Measure::cauchy_on_left(&stress, strain, dilations[place]);
         let stretch = Biot::longest_stretch_of_rows(points.gradient(place));
-        let mut speed = elastic.p_wave_speed() * stretch;
-        if MEASURE == TURNED {
-            // The nominal stress is `T` times the change of the area it acts on.
-            speed *= stretch;
-        }
+        let speed = Measure::wave_speed(elastic.p_wave_speed(), stretch);
         responses.set(place, &cauchy, 0.5 * stress.dot(strain), speed);
     }
     all_sound.then_some(responses)
@@ -90,6 +70,7 @@ mod tests {
     use super::*;
     use crate::MaterialError;
     use crate::contract::Random;
+    use crate::stress_measure::{Conjugate, Turned};
     use fissure_tensor::rotation;
 
     const CONCRETE: Isotropic = Isotropic {
@@ -108,7 +89,7 @@ mod tests {
             let size = random.log_uniform(1e-9, 1e-3);
             let strain = random.strain_direction(true) * size;
             let f = rotation(&turn, turn.norm()) * (Matrix3::identity() + strain.to_matrix());
-            let Some(quick) = sound::<CONJUGATE, ()>(&CONCRETE, &f, |_| true) else {
+            let Some(quick) = sound::<Conjugate, ()>(&CONCRETE, &f, |_| true) else {
                 continue;
             };
             used += 1;
@@ -116,7 +97,7 @@ mod tests {
             let stress = CONCRETE.stress(&kinematics.strain());
             let gap = (quick.stress - kinematics.cauchy(&stress)).max_abs();
             assert!(gap < 4e-15 * CONCRETE.young, "{gap:e} at {size:e}");
-            let turned = sound::<TURNED, ()>(&CONCRETE, &f, |_| true).map(|quick| quick.stress);
+            let turned = sound::<Turned, ()>(&CONCRETE, &f, |_| true).map(|quick| quick.stress);
             let gap = (turned.unwrap_or(Sym::ZERO) - kinematics.turned(&stress)).max_abs();
             assert!(gap < 4e-15 * CONCRETE.young, "{gap:e} at {size:e}");
             let stored = 0.5 * stress.dot(&kinematics.strain());
@@ -137,7 +118,7 @@ mod tests {
             }
             let strain = direction * (2.7e6 / largest);
             let f = Matrix3::identity() + strain.to_matrix();
-            assert!(sound::<TURNED, ()>(&CONCRETE, &f, |s| below(2.7e6, s)).is_none());
+            assert!(sound::<Turned, ()>(&CONCRETE, &f, |s| below(2.7e6, s)).is_none());
         }
     }
 }

@@ -170,6 +170,22 @@ fn two_cracks_pass() {
     }
 }
 
+/// P6 and the symmetry of P4 at finite strain, which the rotated stress has not.
+#[test]
+fn two_cracks_with_the_conjugate_stress_pass() {
+    for (mixed, onset) in [
+        (MixedMode::Uncoupled, Onset::Tension),
+        (MixedMode::default(), Onset::TensionShear),
+    ] {
+        let law = AnisotropicDamage {
+            mixed,
+            onset,
+            ..law()
+        };
+        passes(&ConjugateDamage(TwoCrackDamage(law)));
+    }
+}
+
 /// P11 and P18 hold where nothing drops at once.
 #[test]
 fn the_conjugate_stress_passes() {

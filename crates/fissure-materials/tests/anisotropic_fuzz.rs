@@ -6,9 +6,9 @@
 #![allow(clippy::print_stdout, clippy::panic)] // figures for the docs
 
 use fissure_materials::{
-    AnisotropicDamage, Band, Cracking, DamagePlane, EllipticalDamage, Increment, Isotropic,
-    Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress, SteppedCircleDamage,
-    Tangent, TwoCrackDamage, Vector3, contract::Random, softening::Linear,
+    AnisotropicDamage, Band, ConjugateDamage, Cracking, DamagePlane, EllipticalDamage, Increment,
+    Isotropic, Material, Matrix3, MixedMode, Mode, Onset, OrthotropicDamage, PlaneStress,
+    SteppedCircleDamage, Tangent, TwoCrackDamage, Vector3, contract::Random, softening::Linear,
 };
 use fissure_tensor::Matrix6;
 
@@ -158,6 +158,8 @@ fn any_step_of_two_cracks() {
         ..law()
     };
     holds("two cracks, uncoupled", &TwoCrackDamage(uncoupled), false);
+    let conjugate = ConjugateDamage(TwoCrackDamage(law()));
+    holds("two cracks, conjugate", &conjugate, false);
     let sheet = PlaneStress(TwoCrackDamage(law()));
     holds("two cracks, plane stress", &sheet, true);
 }

@@ -2,7 +2,7 @@
 
 use fissure_materials::{Material, PlaneStress, Scale};
 use fissure_particles::{ParticleError, ParticleId, Particles, Region, Seeding, Seeds};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::body::Body;
 use crate::condition::{Condition, ConditionKind, Hold, Selection, TimeFunction};
@@ -215,7 +215,10 @@ impl<const D: usize> Scene<D> {
         self
     }
 
-    /// Gives every particle of a body a velocity, m/s, by its place.
+    /// Gives every particle of a body a velocity, m/s, by its place; before a run, or between any two of its steps.
+    ///
+    /// Gradients that a transfer carries beside the velocity (APIC) become zero. The ledger's kinetic energy is that of the
+    /// new velocities; the change is in no other column, so that its balances are of the run before or after an edit.
     ///
     /// # Errors
     /// An unknown body, or a velocity that is not finite; nothing is changed then.
@@ -236,6 +239,7 @@ impl<const D: usize> Scene<D> {
             });
         }
         motion.velocity = velocities;
+        motion.affine.fill(SMatrix::zeros());
         self.energy.kinetic = self.bodies.iter().map(Body::kinetic_energy).sum();
         self.edits += 1;
         Ok(self)

@@ -1,11 +1,18 @@
 //! Cracks are carried by the nodes: both faces of every vertex move with the field of their side.
+//!
+//! A step may strain the particles with another field than the one that moves them. The line goes with the particles; how
+//! far its faces have parted is the sum of what strained, for that is what the stress beside them answers to. Were it the
+//! sum of what moved, the two would drift apart while the faces touch, since contact stops only one way: a crack that has
+//! been shut would be held open, at rest, by faces that believe they touch.
 
 use fissure_grid::{Grid, Shape, Stencil, shape::Linear, tile_of, window_node};
-use fissure_scene::{CarriedCrack, CrackLine, End, EndState, Scene, SolveError, VertexMotion};
+use fissure_scene::{
+    CarriedCrack, CrackLine, End, EndState, Scene, Side, SolveError, VertexMotion,
+};
 use nalgebra::{SMatrix, SVector, Vector2};
 
 use crate::groups::{between, plane};
-use crate::placement::Placement;
+use crate::placement::{CRACKS_MOVE, Placement};
 use crate::release::SplittingCrack;
 
 /// How far beside the line a face is asked for, in cells: enough to be beyond round-off.
@@ -14,15 +21,32 @@ const BESIDE: f64 = 1e-6;
 /// Segments longer than this, in cells, are divided.
 const LONGEST: f64 = 0.5;
 
-/// Divides long segments, so that the vertices see what the faces do between nodes.
-pub(crate) fn refine<const D: usize>(scene: &mut Scene<D>, grid: &Grid<D>) {
-    let longest = LONGEST * grid.spacing();
-    if !scene.cracks().is_empty() {
-        scene
-            .cracks_mut()
-            .iter_mut()
-            .for_each(|crack| crack.refine(longest));
+/// Divides long segments of cracks that are new or have grown, so that the vertices see what the faces do between nodes.
+/// Others are left as they are, though strain may have made a segment longer: an edit of something else is not to change
+/// them.
+pub(crate) fn refine<const D: usize>(
+    scene: &mut Scene<D>,
+    grid: &Grid<D>,
+    placement: &Placement<D>,
+) {
+    let known = placement.crack_vertices(scene);
+    if vertices(scene).eq(known.iter().copied()) {
+        return;
     }
+    let longest = LONGEST * grid.spacing();
+    for (index, crack) in scene.cracks_mut().iter_mut().enumerate() {
+        if known.get(index) != Some(&crack.line().points().len()) {
+            crack.refine(longest);
+        }
+    }
+}
+
+/// Of each crack how many vertices it has.
+pub(crate) fn vertices<const D: usize>(scene: &Scene<D>) -> impl Iterator<Item = usize> {
+    scene
+        .cracks()
+        .iter()
+        .map(|crack| crack.line().points().len())
 }
 
 /// The cracks of a scene as a step leaves them.
@@ -42,8 +66,29 @@ impl CarriedCracks {
     }
 }
 
-/// All cracks, moved by nodal displacements. `way(node)` is how much a node counts, in [0, 1], and its displacement,
-/// m; `None` where nothing moves it. Faces are interpolated linearly from the nodes of their side; a face without
+/// What a node does to the faces of cracks in a step.
+pub(crate) struct NodeWay<const D: usize> {
+    /// How much it counts, in [0, 1].
+    pub weight: f64,
+    /// Its displacement, m.
+    pub moved: SVector<f64, D>,
+    /// The one that strains the particles, m.
+    pub straining: SVector<f64, D>,
+}
+
+impl<const D: usize> NodeWay<D> {
+    /// Of a scheme that strains with what moves.
+    #[cfg(feature = "implicit")]
+    pub(crate) fn of(displacement: SVector<f64, D>) -> Self {
+        Self {
+            weight: 1.0,
+            moved: displacement,
+            straining: displacement,
+        }
+    }
+}
+
+/// All cracks, moved by what `way` says of each node; `None` where nothing moves it. Faces are interpolated linearly from the nodes of their side; a face without
 /// nodes moves with the other.
 ///
 /// # Errors
@@ -52,7 +97,7 @@ pub(crate) fn carried<const D: usize>(
     scene: &Scene<D>,
     grid: &Grid<D>,
     placement: &Placement<D>,
-    way: impl Fn(usize) -> Option<(f64, SVector<f64, D>)>,
+    way: impl Fn(usize) -> Option<NodeWay<D>>,
 ) -> Result<CarriedCracks, SolveError> {
     let faces = Faces {
         cracks: SplittingCrack::all(scene.cracks(), grid.spacing()),
@@ -64,8 +109,8 @@ pub(crate) fn carried<const D: usize>(
         cracks: Vec::with_capacity(scene.cracks().len()),
         farthest: 0.0,
     };
-    for crack in scene.cracks() {
-        let motions = faces.motions(crack);
+    for (index, crack) in scene.cracks().iter().enumerate() {
+        let motions = faces.motions(index, crack);
         let ways = motions.iter().map(|motion| motion.displacement.norm());
         moved.farthest = ways.fold(moved.farthest, f64::max);
         let carried = crack.carried(|vertex, _| motions[vertex]);
@@ -80,6 +125,21 @@ pub(crate) fn carried<const D: usize>(
     Ok(moved)
 }
 
+/// What a face does in a step, m: as of [`NodeWay`].
+#[derive(Clone, Copy, Default)]
+struct FaceWay {
+    moved: Vector2<f64>,
+    straining: Vector2<f64>,
+}
+
+/// A point beside a crack.
+struct Face {
+    x: Vector2<f64>,
+    /// Which crack.
+    of: usize,
+    side: Side,
+}
+
 struct Faces<'a, F, const D: usize> {
     cracks: Vec<SplittingCrack<'a>>,
     grid: &'a Grid<D>,
@@ -87,15 +147,16 @@ struct Faces<'a, F, const D: usize> {
     way: &'a F,
 }
 
-impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F, D> {
-    fn motions(&self, crack: &CrackLine) -> Vec<VertexMotion> {
+impl<F: Fn(usize) -> Option<NodeWay<D>>, const D: usize> Faces<'_, F, D> {
+    fn motions(&self, of: usize, crack: &CrackLine) -> Vec<VertexMotion> {
         let line = crack.line();
         let last = line.points().len() - 1;
         let moved = line.points().iter().enumerate().map(|(vertex, x)| {
             let aside = line.normal_at(vertex) * (BESIDE * self.grid.spacing());
-            let [plus, minus] = [x + aside, x - aside].map(|face| self.face(&face));
+            let face = |x, side| self.face(&Face { x, of, side });
+            let [plus, minus] = [face(x + aside, Side::Plus), face(x - aside, Side::Minus)];
             let both = [plus.or(minus), minus.or(plus)];
-            let [plus, minus] = both.map(|way| way.unwrap_or_else(Vector2::zeros));
+            let [plus, minus] = both.map(Option::unwrap_or_default);
             // Behind a tip the faces part; at the tip they are one.
             let end = match vertex {
                 0 => Some(End::First),
@@ -104,46 +165,76 @@ impl<F: Fn(usize) -> Option<(f64, SVector<f64, D>)>, const D: usize> Faces<'_, F
             };
             let tip = end.is_some_and(|end| crack.end(end) == EndState::Tip);
             VertexMotion {
-                displacement: (plus + minus) * 0.5,
-                jump: if tip { Vector2::zeros() } else { plus - minus },
+                displacement: (plus.moved + minus.moved) * 0.5,
+                jump: if tip {
+                    Vector2::zeros()
+                } else {
+                    plus.straining - minus.straining
+                },
             }
         });
         moved.collect()
     }
 
-    /// Displacement of a point beside a crack; `None` off the grid and where no node of its side
+    /// Displacements of a point beside a crack; `None` off the grid and where no node of its side
     /// moves.
-    fn face(&self, x: &Vector2<f64>) -> Option<Vector2<f64>> {
-        let place = SVector::from_fn(|axis, _| x[axis]);
+    fn face(&self, face: &Face) -> Option<FaceWay> {
+        let place = SVector::from_fn(|axis, _| face.x[axis]);
         let tile = tile_of(self.grid.cell(&place)?);
         let stencil = Linear.stencil(self.grid, tile, &place, &SMatrix::zeros())?;
-        let (mut sum, mut weights) = (Vector2::zeros(), 0.0);
+        let (mut sum, mut weights) = (FaceWay::default(), 0.0);
         stencil.visit_values(|entry, weight| {
             let index = window_node(tile, entry);
-            let node = plane(&self.grid.node(index));
-            let cracks = between(&self.cracks, 0..self.cracks.len(), x, &node);
-            if let Some((counts, way)) = self.way_at(index, cracks) {
-                sum += plane(&way) * (weight * counts);
-                weights += weight * counts;
+            if let Some(way) = self.way_at(index, face) {
+                let share = weight * way.weight;
+                sum.moved += plane(&way.moved) * share;
+                sum.straining += plane(&way.straining) * share;
+                weights += share;
             }
         });
         // A far corner alone says nothing of the face.
-        (weights > 0.05).then(|| sum / weights)
+        (weights > 0.05).then(|| FaceWay {
+            moved: sum.moved / weights,
+            straining: sum.straining / weights,
+        })
     }
 
-    /// Weight and displacement of the field at a node that has these cracks in between.
-    fn way_at(&self, index: [i32; D], cracks: u64) -> Option<(f64, SVector<f64, D>)> {
+    /// What the field of a face's side does at a node.
+    fn way_at(&self, index: [i32; D], face: &Face) -> Option<NodeWay<D>> {
         let node = self.placement.node(index)?;
         let splits = &self.placement.splits;
-        let mut copies = splits.copies_of(node);
+        let copies = splits.copies_of(node);
         if copies.is_empty() {
             return (self.way)(node);
         }
-        copies.find_map(|copy| {
-            let copy = splits.copies[copy];
+        let copies = &splits.copies[copies];
+        let all = copies.iter().fold(0, |all, copy| all | copy.label.cracks);
+        let cracks = self.cracks_between(face, &plane(&self.grid.node(index)), all);
+        copies.iter().find_map(|copy| {
             let same = copy.label.cracks == cracks;
             same.then(|| (self.way)(copy.node as usize)).flatten()
         })
+    }
+
+    /// The cracks between a face and a node, as in a label; `all` are those of the node's labels.
+    ///
+    /// A node all but on the face's own crack may have been on its other side when the particles were told apart. On
+    /// which it was the labels know: its own side's particles do not have the crack in between.
+    fn cracks_between(&self, face: &Face, node: &Vector2<f64>, all: u64) -> u64 {
+        let cracks = between(&self.cracks, 0..self.cracks.len(), &face.x, node);
+        let near = CRACKS_MOVE * self.grid.spacing();
+        if self.cracks[face.of].line.foot(node).distance > near {
+            return cracks;
+        }
+        let [plus, minus] = [1, 2].map(|bit: u64| bit << (2 * face.of));
+        let own = match face.side {
+            Side::Plus => plus,
+            Side::Minus => minus,
+        };
+        match all & (plus | minus) {
+            one if one == plus || one == minus => cracks & !(plus | minus) | own & one,
+            _ => cracks,
+        }
     }
 }
 

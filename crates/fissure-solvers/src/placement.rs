@@ -10,12 +10,13 @@ use nalgebra::SVector;
 use rayon::prelude::*;
 
 use crate::checks::outside;
+use crate::crack_motion::vertices;
 use crate::groups::{Between, Groups, Pattern};
 use crate::splits::{SplitWindow, Splits};
 use crate::window::WindowNodes;
 
 /// How far cracks may move, in cells, before particles are sorted by them anew.
-const CRACKS_MOVE: f64 = 0.05;
+pub(crate) const CRACKS_MOVE: f64 = 0.05;
 /// Entries of a window in the plane.
 const WINDOW_ENTRIES: usize = 64;
 /// The lower half of the bits of a label.
@@ -55,6 +56,8 @@ pub struct Placement<const D: usize> {
     /// Present indices of the particles that each condition selects.
     selected: Vec<Vec<u32>>,
     edits: Option<u64>,
+    /// Of each crack of the scene last seen how many vertices it had.
+    crack_vertices: Vec<usize>,
     /// Whether a particle has left the tile of its run.
     moved: bool,
     /// Tile of each particle, while they are sorted and once recalled.
@@ -80,6 +83,7 @@ impl<const D: usize> Default for Placement<D> {
             splits: Splits::default(),
             selected: Vec::new(),
             edits: None,
+            crack_vertices: Vec::new(),
             moved: false,
             homes: Vec::new(),
             patterns: Vec::new(),
@@ -189,10 +193,17 @@ impl<const D: usize> Placement<D> {
         self.patterns = Vec::new();
         self.homes = Vec::new();
         self.split();
+        self.crack_vertices = vertices(scene).collect();
         self.index_selected(scene);
         self.edits = Some(scene.edits());
         self.moved = false;
         Ok(())
+    }
+
+    /// Of each crack how many vertices it had when this scene was last seen; none of another scene.
+    pub(crate) fn crack_vertices(&self, scene: &Scene<D>) -> &[usize] {
+        let same = self.edits.map(|edits| edits >> 32) == Some(scene.edits() >> 32);
+        if same { &self.crack_vertices } else { &[] }
     }
 
     fn form_groups(&mut self, scene: &Scene<D>, fields: &[u32]) {

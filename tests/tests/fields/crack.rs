@@ -113,9 +113,11 @@ fn a_closed_cut_lets_pressure_through_and_no_tension() {
     for law in [ContactLaw::Stick, ContactLaw::Frictionless] {
         let (scene, through) = pulse(Some(law), 1.0);
         println!("{law:?}: {through:.5} of {whole:.5}");
-        // What follows the pulse in tension does not pass.
+        // What follows the pulse in tension does not pass. Faces that may slide part in the ringing behind the front, and what
+        // they are then apart by is lost until they meet again: 6 % here, 1 % where they stick.
+        let bound = if law == ContactLaw::Stick { 0.02 } else { 0.07 };
         assert!(
-            (through / whole - 1.0).abs() <= 0.05,
+            (through / whole - 1.0).abs() <= bound,
             "{law:?}: {through} of {whole}"
         );
         assert!(scene.energy().worst_balance <= 1e-12);

@@ -89,6 +89,17 @@ pub(super) const CONJUGATE: Entry = Entry {
     },
 };
 
+pub(super) const CONJUGATE_TWO_CRACKS: Entry = Entry {
+    name: "conjugate-two-crack-damage",
+    about: "two cracks with the stress that does the work",
+    parameters: PARAMETERS,
+    plane_stress: false,
+    build: |values, space| {
+        let law = TwoCrackDamage(anisotropic(values, Onset::TensionShear));
+        cracking(ConjugateDamage(law), space)
+    },
+};
+
 pub(super) const ELLIPTICAL: Entry = Entry {
     name: "elliptical-damage",
     about: "the same with two shear damages on an ellipse, not objective, for comparison",

@@ -10,34 +10,66 @@
 
 use fissure_tensor::{Band, Matrix3, Sym, Tangent, Vector3};
 
-use super::tangent::Measure;
-use super::{AnisotropicDamage, AnisotropicDamageState};
-use crate::softening::Linear;
+use super::AnisotropicDamage;
+use crate::material::{DIFFERENCE_STEP, difference_tangent};
+use crate::stress_measure::{Conjugate, StressMeasure};
 use crate::{
     Biot, Crack, Cracking, Increment, Initiation, Material, MaterialError, Response, Scale,
-    Softening,
 };
 
-/// The law with the Cauchy stress conjugate to its strain: for cracks that open by a sizeable part of their band.
+/// A law of cracks on Biot's strain that can be had with either stress: the laws of one crack and of two.
+pub trait EitherStress: Cracking {
+    /// The update with this stress.
+    ///
+    /// # Errors
+    /// As [`Material::update`].
+    fn update_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<Response<Self::State>, MaterialError>;
+
+    /// The update with this stress and its tangent; `None` for a step the tangent of which is not known in closed form.
+    ///
+    /// # Errors
+    /// As [`Material::update`].
+    #[allow(clippy::type_complexity)] // a pair, or what stopped it
+    fn update_with_tangent_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &Self::State,
+    ) -> Result<(Response<Self::State>, Option<Tangent>), MaterialError>;
+
+    /// Speed of the fastest wave in what is neither cracked nor strained, m/s.
+    fn sound_speed(&self, scale: &Scale) -> f64;
+
+    /// Unit normals of the cracks there are, reference axes; perpendicular to each other.
+    fn normals(&self, state: &Self::State) -> [Option<Vector3<f64>>; 2];
+}
+
+/// The law of one crack, or of two, with the Cauchy stress conjugate to its strain: for cracks that open by a sizeable part
+/// of their band.
 ///
 /// ```
 /// use fissure_materials::{
-///     AnisotropicDamage, ConjugateDamage, Isotropic, Material, Mode, softening::Linear,
+///     AnisotropicDamage, ConjugateDamage, Isotropic, Material, Mode, TwoCrackDamage,
+///     softening::Linear,
 /// };
 /// let elastic = Isotropic { density: 1000.0, young: 1e9, poisson: 0.33 };
 /// let mode = Mode { strength: 30e6, toughness: 10e3, softening: Linear };
-/// let law = ConjugateDamage(AnisotropicDamage::new(elastic, mode, mode));
-/// law.check()?;
+/// let one = AnisotropicDamage::new(elastic, mode, mode);
+/// ConjugateDamage(one).check()?;
+/// ConjugateDamage(TwoCrackDamage(one)).check()?;
 /// # Ok::<(), fissure_materials::MaterialError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConjugateDamage<N = Linear, T = Linear>(pub AnisotropicDamage<N, T>);
+pub struct ConjugateDamage<L = AnisotropicDamage>(pub L);
 
-impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
-    type State = AnisotropicDamageState;
+impl<L: EitherStress> Material for ConjugateDamage<L> {
+    type State = L::State;
     const SPARSE: bool = true;
     const STRESS_FROM_GRADIENT: bool = true;
-    const NAMES: &'static [&'static str] = AnisotropicDamage::<N, T>::NAMES;
+    const NAMES: &'static [&'static str] = L::NAMES;
     // A path that is straight in U − 1 has none; one that is straight in F has at strains of a quarter, five natural ones
     // of a weak law (measured 0.22).
     const STEP_ERROR: f64 = 0.25;
@@ -68,16 +100,15 @@ impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
 
     fn wave_speed(&self, f: &Matrix3<f64>, state: &Self::State, scale: &Scale) -> f64 {
         let mut bearing = *f;
-        if state.width > 0.0 {
+        for normal in self.0.normals(state).into_iter().flatten() {
             // Without what the crack opens by: F·(1 − n⊗n) + R n⊗n has the stretches in its plane.
-            let normal = Vector3::from(state.normal);
             let opened = f * normal;
             let length = opened.norm();
             if length > 1.0 {
                 bearing += (opened / length - opened) * normal.transpose();
             }
         }
-        self.0.elastic.scaled(scale).p_wave_speed() * Biot::longest_stretch(&bearing)
+        Conjugate::wave_speed(self.0.sound_speed(scale), Biot::longest_stretch(&bearing))
     }
 
     fn has_history(&self, state: &Self::State) -> bool {
@@ -89,13 +120,15 @@ impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<Response<Self::State>, MaterialError> {
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.0.step::<false>(&kinematics, increment, old)?;
-        Ok(self.0.response(&kinematics, &step, old, Measure::Conjugate))
+        self.0.update_as::<Conjugate>(increment, old)
     }
 
     fn tangent(&self, increment: &Increment, old: &Self::State) -> Result<Tangent, MaterialError> {
         Ok(self.update_with_tangent(increment, old)?.1)
+    }
+
+    fn has_own_tangent(&self, old: &Self::State, new: &Self::State) -> bool {
+        self.0.has_own_tangent(old, new)
     }
 
     fn update_with_tangent(
@@ -103,14 +136,12 @@ impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
         increment: &Increment,
         old: &Self::State,
     ) -> Result<(Response<Self::State>, Tangent), MaterialError> {
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.0.step::<false>(&kinematics, increment, old)?;
-        let measure = Measure::Conjugate;
-        Ok((
-            self.0.response(&kinematics, &step, old, measure),
-            self.0
-                .step_tangent::<false>(&kinematics, &step, increment, measure),
-        ))
+        let (response, tangent) = self.0.update_with_tangent_as::<Conjugate>(increment, old)?;
+        let tangent = match tangent {
+            Some(tangent) => tangent,
+            None => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
+        };
+        Ok((response, tangent))
     }
 
     fn values(&self, state: &Self::State, out: &mut [f64]) {
@@ -118,7 +149,7 @@ impl<N: Softening, T: Softening> Material for ConjugateDamage<N, T> {
     }
 }
 
-impl<N: Softening, T: Softening> Cracking for ConjugateDamage<N, T> {
+impl<L: EitherStress> Cracking for ConjugateDamage<L> {
     fn toughness(&self, scale: &Scale) -> f64 {
         self.0.toughness(scale)
     }

@@ -30,6 +30,11 @@ pub struct AnisotropicDamageState {
 }
 
 impl AnisotropicDamageState {
+    /// Unit normal of the crack, reference axes; `None` before it starts.
+    pub(super) fn started_normal(&self) -> Option<Vector3<f64>> {
+        (self.width > 0.0).then(|| Vector3::from(self.normal))
+    }
+
     /// What never falls.
     pub(super) fn irreversible(&self) -> Vec<f64> {
         vec![self.opened, self.sheared, f64::from(u8::from(self.failed))]

@@ -10,9 +10,9 @@
 
 use fissure_tensor::{Sym, Tangent};
 
-use super::tangent::Measure;
 use super::{AnisotropicDamage, AnisotropicDamageState};
 use crate::plane_stress::with_thickness;
+use crate::stress_measure::Turned;
 use crate::{Biot, Increment, MaterialError, Onset, SheetStep, Softening};
 
 impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
@@ -76,11 +76,10 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         }
         let kinematics = Biot::new(&flat.f_new)?;
         let step = self.step::<true>(&kinematics, &flat, old)?;
-        let response =
-            sound.unwrap_or_else(|| self.response(&kinematics, &step, old, Measure::Turned));
+        let response = sound.unwrap_or_else(|| self.response::<Turned>(&kinematics, &step, old));
         let thickening = self.thickening(&flat, &response.stress)?;
         let tangent = with_tangent.then(|| {
-            let fixed = self.step_tangent::<true>(&kinematics, &step, &flat, Measure::Turned);
+            let fixed = self.step_tangent::<true, Turned>(&kinematics, &step, &flat);
             self.thinned(&flat, &response.stress, thickening, &fixed)
         });
         Ok(Some(SheetStep {

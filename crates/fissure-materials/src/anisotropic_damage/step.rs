@@ -4,11 +4,12 @@ use fissure_tensor::{Sym, Tangent, Vector3};
 
 use super::crack::{CrackAt, Demand, Moved};
 use super::elasticity::Elastic;
-use super::tangent::{self, Measure, Start};
+use super::tangent::{self, Start};
 use super::{AnisotropicDamage, AnisotropicDamageState, NAME};
 use crate::error::{check_below, check_scaled_toughness};
 use crate::finite_strain::LeftStrain;
-use crate::sound::{TURNED, sound_eight};
+use crate::sound::sound_eight;
+use crate::stress_measure::{StressMeasure, Turned};
 use crate::tension_shear::TensionShear;
 use crate::{
     Biot, EightPoints, EightResponses, Increment, MaterialError, Onset, Response, Scale, Softening,
@@ -120,7 +121,7 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
         if self.thermal_expansion != 0.0 {
             return None;
         }
-        sound_eight::<TURNED>(&self.elastic, points, |place, stress| {
+        sound_eight::<Turned>(&self.elastic, points, |place, stress| {
             let scale = Scale {
                 strength: points.strength[place],
                 ..Scale::default()
@@ -180,12 +181,11 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
     }
 
     #[inline(always)]
-    pub(super) fn response(
+    pub(super) fn response<Measure: StressMeasure>(
         &self,
         kinematics: &Biot,
         step: &Step,
         old: &AnisotropicDamageState,
-        measure: Measure,
     ) -> Response<AnisotropicDamageState> {
         // Unloading goes to the origin, so that all strain is recovered but what friction holds.
         let (mut recoverable, mut dissipated, mut state) = (step.strain, 0.0, *old);
@@ -195,24 +195,23 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
             recoverable -= Sym::dyad_of(&state.normal.into(), &moved.slipped);
         }
         Response {
-            stress: measure.stress(kinematics, &step.biot_stress),
+            stress: Measure::cauchy(kinematics, &step.biot_stress),
             state,
             stored: 0.5 * step.biot_stress.dot(&recoverable),
             dissipated,
         }
     }
 
-    pub(super) fn step_tangent<const SHEET: bool>(
+    pub(super) fn step_tangent<const SHEET: bool, Measure: StressMeasure>(
         &self,
         kinematics: &Biot,
         step: &Step,
         increment: &Increment,
-        measure: Measure,
     ) -> Tangent {
         let scale = &increment.external.scale;
         let elastic = self.elastic_at::<SHEET>(scale);
         let fixed = |modulus: &Tangent| {
-            measure.tangent(kinematics, &step.biot_stress, |strain_rate, _| {
+            Measure::tangent(kinematics, &step.biot_stress, |strain_rate, _| {
                 modulus.apply(strain_rate)
             })
         };
@@ -234,9 +233,8 @@ impl<N: Softening, T: Softening> AnisotropicDamage<N, T> {
             weights: *weights,
             in_plane: self.surface::<SHEET>(scale).onset == Onset::InPlane,
             width: moved.state.width,
-            measure,
         }
-        .tangent(&step.biot_stress, &modulus)
+        .tangent::<Measure>(&step.biot_stress, &modulus)
     }
 }
 

@@ -5,39 +5,8 @@ use fissure_tensor::{Band, Matrix3, Spectrum, Sym, Tangent, Vector3};
 use super::crack::{Demand, Moved, Slopes};
 use super::elasticity::Elastic;
 use crate::Biot;
+use crate::stress_measure::StressMeasure;
 use crate::turning::width_rate;
-
-/// How Cauchy's stress follows from `T`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Measure {
-    /// `R·T·Rᵀ`.
-    Turned,
-    /// What does the work `T : dU`.
-    Conjugate,
-}
-
-impl Measure {
-    #[inline]
-    pub fn stress(self, kinematics: &Biot, biot_stress: &Sym) -> Sym {
-        match self {
-            Self::Turned => kinematics.turned(biot_stress),
-            Self::Conjugate => kinematics.cauchy(biot_stress),
-        }
-    }
-
-    /// The spatial tangent from the rate of `T`, given the rates of strain and rotation.
-    pub fn tangent(
-        self,
-        kinematics: &Biot,
-        biot_stress: &Sym,
-        rate: impl Fn(&Sym, &Matrix3<f64>) -> Sym,
-    ) -> Tangent {
-        match self {
-            Self::Turned => kinematics.turned_tangent(biot_stress, rate),
-            Self::Conjugate => kinematics.conjugate_tangent(biot_stress, rate),
-        }
-    }
-}
 
 /// `∂T/∂E` with the crack's plane and band fixed:
 /// `C − (1 − a_n) C₁₁ m⊗m − Σ_t (1 − a_t) G s_t⊗s_t`, `m = C:(n⊗n)/C₁₁`, `s_t = n⊗t + t⊗n`, with
@@ -90,23 +59,21 @@ pub(super) struct Start<'a, const SHEET: bool> {
     /// Whether only the components in the xy plane turn the normal.
     pub in_plane: bool,
     pub width: f64,
-    pub measure: Measure,
 }
 
 impl<const SHEET: bool> Start<'_, SHEET> {
     /// `C:(1 − Δ)` for a crack that starts.
-    pub fn tangent(&self, stress: &Sym, modulus: &Tangent) -> Tangent {
+    pub fn tangent<Measure: StressMeasure>(&self, stress: &Sym, modulus: &Tangent) -> Tangent {
         // In the order of the stresses, as the weights are.
         let spectrum = self
             .elastic
             .completed(&self.plane_part(self.strain))
             .spectrum();
-        self.measure
-            .tangent(self.kinematics, stress, |strain_rate, rotation_rate| {
-                let normal_rate = self.normal_rate(&spectrum, &self.plane_part(strain_rate));
-                let widening = self.widening(&normal_rate, rotation_rate);
-                modulus.apply(strain_rate) + self.turning(&normal_rate) + widening
-            })
+        Measure::tangent(self.kinematics, stress, |strain_rate, rotation_rate| {
+            let normal_rate = self.normal_rate(&spectrum, &self.plane_part(strain_rate));
+            let widening = self.widening(&normal_rate, rotation_rate);
+            modulus.apply(strain_rate) + self.turning(&normal_rate) + widening
+        })
     }
 
     fn plane_part(&self, tensor: &Sym) -> Sym {

@@ -17,6 +17,9 @@
 //!
 //! Friction of closed faces is not offered: which of two failed cracks slides would be left to chance. In the step
 //! in which the second crack starts the tangent is a difference.
+//!
+//! Cauchy's stress is `R·T·Rᵀ` as in the document; [`ConjugateDamage`](crate::ConjugateDamage) gives the one that does the
+//! work `T : dU`.
 
 mod cracking;
 mod pair;
@@ -29,13 +32,14 @@ use serde::{Deserialize, Serialize};
 
 use self::pair::{MovedPair, Pair};
 use self::sheet::Sheet;
+use super::conjugate::EitherStress;
 use super::crack::Demand;
 use super::step::Step;
-use super::tangent::Measure;
 use super::{AnisotropicDamage, AnisotropicDamageState};
 use crate::error::check_below;
 use crate::material::{DIFFERENCE_STEP, difference_tangent};
 use crate::softening::Linear;
+use crate::stress_measure::{StressMeasure, Turned};
 use crate::tension_shear::TensionShear;
 use crate::{
     Biot, Increment, Initiation, Material, MaterialError, Onset, Response, Scale, SheetStep,
@@ -165,7 +169,7 @@ impl<N: Softening, T: Softening> TwoCrackDamage<N, T> {
         Ok(Both::Two(strain, stress, moved, started))
     }
 
-    fn response(
+    fn response<Measure: StressMeasure>(
         &self,
         kinematics: &Biot,
         step: &Both,
@@ -173,13 +177,11 @@ impl<N: Softening, T: Softening> TwoCrackDamage<N, T> {
     ) -> Response<TwoCrackState> {
         match step {
             Both::One(step) => {
-                let one = self
-                    .0
-                    .response(kinematics, step, &old.first, Measure::Turned);
+                let one = self.0.response::<Measure>(kinematics, step, &old.first);
                 with_first(&one, old)
             }
             Both::Two(strain, stress, moved, _) => Response {
-                stress: kinematics.turned(stress),
+                stress: Measure::cauchy(kinematics, stress),
                 state: moved.state(),
                 stored: 0.5 * stress.dot(strain),
                 dissipated: moved.dissipated(),
@@ -187,22 +189,25 @@ impl<N: Softening, T: Softening> TwoCrackDamage<N, T> {
         }
     }
 
-    /// Not for the step in which the second crack starts: its plane would not turn.
-    fn step_tangent<const SHEET: bool>(
+    /// `None` for the step in which the second crack starts: its plane still turns.
+    fn step_tangent<const SHEET: bool, Measure: StressMeasure>(
         &self,
         kinematics: &Biot,
         step: &Both,
         increment: &Increment,
-    ) -> Tangent {
+    ) -> Option<Tangent> {
         match step {
-            Both::One(step) => {
+            Both::One(step) => Some(
                 self.0
-                    .step_tangent::<SHEET>(kinematics, step, increment, Measure::Turned)
-            }
+                    .step_tangent::<SHEET, Measure>(kinematics, step, increment),
+            ),
+            Both::Two(.., true) => None,
             Both::Two(_, stress, moved, _) => {
                 let elastic = self.0.elastic_at::<SHEET>(&increment.external.scale);
                 let modulus = moved.modulus(&elastic);
-                kinematics.turned_tangent(stress, |rate, _| modulus.apply(rate))
+                Some(Measure::tangent(kinematics, stress, |rate, _| {
+                    modulus.apply(rate)
+                }))
             }
         }
     }
@@ -238,6 +243,40 @@ fn with_first(
         },
         stored: one.stored,
         dissipated: one.dissipated,
+    }
+}
+
+impl<N: Softening, T: Softening> EitherStress for TwoCrackDamage<N, T> {
+    #[inline(always)]
+    fn update_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &TwoCrackState,
+    ) -> Result<Response<TwoCrackState>, MaterialError> {
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step::<false>(&kinematics, increment, old)?;
+        Ok(self.response::<Measure>(&kinematics, &step, old))
+    }
+
+    fn update_with_tangent_as<Measure: StressMeasure>(
+        &self,
+        increment: &Increment,
+        old: &TwoCrackState,
+    ) -> Result<(Response<TwoCrackState>, Option<Tangent>), MaterialError> {
+        let kinematics = Biot::new(&increment.f_new)?;
+        let step = self.step::<false>(&kinematics, increment, old)?;
+        Ok((
+            self.response::<Measure>(&kinematics, &step, old),
+            self.step_tangent::<false, Measure>(&kinematics, &step, increment),
+        ))
+    }
+
+    fn sound_speed(&self, scale: &Scale) -> f64 {
+        self.0.sound_speed(scale)
+    }
+
+    fn normals(&self, state: &TwoCrackState) -> [Option<Vector3<f64>>; 2] {
+        [state.first.started_normal(), state.second.started_normal()]
     }
 }
 
@@ -310,9 +349,7 @@ impl<N: Softening, T: Softening> Material for TwoCrackDamage<N, T> {
         if let Some(one) = self.0.sound::<false>(increment, &old.first) {
             return Ok(with_first(&one, old));
         }
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step::<false>(&kinematics, increment, old)?;
-        Ok(self.response(&kinematics, &step, old))
+        self.update_as::<Turned>(increment, old)
     }
 
     fn plane_stress(
@@ -326,15 +363,13 @@ impl<N: Softening, T: Softening> Material for TwoCrackDamage<N, T> {
         };
         let kinematics = Biot::new(&flat.f_new)?;
         let step = self.step::<true>(&kinematics, &flat, old)?;
-        let response = self.response(&kinematics, &step, old);
+        let response = self.response::<Turned>(&kinematics, &step, old);
         let thickening = self.0.thickening(&flat, &response.stress)?;
         let mut tangent = None;
         if with_tangent {
-            let fixed = match step {
-                Both::Two(.., true) => {
-                    difference_tangent(&Sheet(*self), &flat, old, DIFFERENCE_STEP)?
-                }
-                _ => self.step_tangent::<true>(&kinematics, &step, &flat),
+            let fixed = match self.step_tangent::<true, Turned>(&kinematics, &step, &flat) {
+                Some(fixed) => fixed,
+                None => difference_tangent(&Sheet(*self), &flat, old, DIFFERENCE_STEP)?,
             };
             tangent = Some(self.0.thinned(&flat, &response.stress, thickening, &fixed));
         }
@@ -362,15 +397,14 @@ impl<N: Softening, T: Softening> Material for TwoCrackDamage<N, T> {
         increment: &Increment,
         old: &TwoCrackState,
     ) -> Result<(Response<TwoCrackState>, Tangent), MaterialError> {
-        let kinematics = Biot::new(&increment.f_new)?;
-        let step = self.step::<false>(&kinematics, increment, old)?;
+        let (found, tangent) = self.update_with_tangent_as::<Turned>(increment, old)?;
         let response = match self.0.sound::<false>(increment, &old.first) {
             Some(one) => with_first(&one, old),
-            None => self.response(&kinematics, &step, old),
+            None => found,
         };
-        let tangent = match step {
-            Both::Two(.., true) => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
-            _ => self.step_tangent::<false>(&kinematics, &step, increment),
+        let tangent = match tangent {
+            Some(tangent) => tangent,
+            None => difference_tangent(self, increment, old, DIFFERENCE_STEP)?,
         };
         Ok((response, tangent))
     }

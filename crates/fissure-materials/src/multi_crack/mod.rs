@@ -56,7 +56,8 @@ pub use state::{MultiCrackState, Plane};
 use crate::{
     Biot, Increment, Isotropic, MaterialError, Response, Scale,
     error::{check_below, check_scaled_toughness},
-    sound::{CONJUGATE, sound},
+    sound::sound,
+    stress_measure::Conjugate,
     turning::{Turning, width_rate},
 };
 use relax::{elastic_strain, relax};
@@ -227,7 +228,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         if old.planes().is_empty() {
             // A margin for round-off: the exact test decides at the surface.
             let accepts = |stress: &Sym| self.decohesion.upper_bound(stress) < -1e-9;
-            if let Some(response) = sound::<CONJUGATE, _>(&self.elastic, &increment.f_new, accepts)
+            if let Some(response) = sound::<Conjugate, _>(&self.elastic, &increment.f_new, accepts)
             {
                 return Ok(response);
             }

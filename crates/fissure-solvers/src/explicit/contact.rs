@@ -32,7 +32,8 @@ use crate::transfers::Transfers;
 /// Rounds over the pairs of a node where more than two fields meet.
 const ROUNDS: usize = 30;
 
-/// When the gap is taken.
+/// When the gap between bodies is taken. That between faces of a crack is always of the start: the sum of what strained,
+/// to which the step adds.
 #[derive(Clone, Copy)]
 pub(crate) enum Gap<'f> {
     /// Before the particles have moved.
@@ -263,8 +264,10 @@ impl<const D: usize> Meetings<D> {
         let wanted = if let Some(law) = meeting.law {
             let normal = &meeting.normal;
             let gap = match gap {
-                Gap::Start => meeting.gap,
-                Gap::End(moved) => meeting.gap + dt * jump(moved).dot(normal),
+                Gap::End(moved) if meeting.is_of_bodies() => {
+                    meeting.gap + dt * jump(moved).dot(normal)
+                }
+                _ => meeting.gap,
             };
             let free = jump(field) - impulse / reduced;
             let mut spring = if ties && meeting.tie.stiffness > 0.0 {

@@ -14,8 +14,8 @@ use super::phases::{Pass, Phases, mean_particle_mass, to_grid};
 use super::settings::{ExplicitSettings, StressUpdate, Transfer};
 use crate::checks::{check_columns, check_mesh, check_until};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carried, refine};
-use crate::nodes::{MASSIVE, NodeSums, vector};
+use crate::crack_motion::{NodeWay, carried, refine};
+use crate::nodes::{Field, MASSIVE, NodeSums, vector};
 use crate::placement::Placement;
 use crate::release::Release;
 use crate::transfers::Transfers;
@@ -96,7 +96,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
         self.summed = false;
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
-                refine(scene, &self.grid);
+                refine(scene, &self.grid, &self.placement);
                 self.fastest = None;
             }
             check_columns(scene)?;
@@ -229,10 +229,17 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
         let mut booking = Booking::accelerated(stress_update, sums, nodes, &totals, dt);
         phases.filter(scene, sums, nodes, &mut report.reactions)?;
         let light = LIGHT * phases.mean_particle_mass;
-        let cracks = carried(scene, grid, placement, |node| {
-            let (mass, end) = (sums.mass(node), &nodes.end[node]);
-            (end[MASSIVE] > 0.0).then(|| (mass / (mass + light), vector(end) * dt))
-        })?;
+        let carry = |scene: &Scene<D>, sums: &NodeSums<D>, end: &Field, straining: &Field| {
+            carried(scene, grid, placement, |node| {
+                let (mass, end) = (sums.mass(node), &end[node]);
+                (end[MASSIVE] > 0.0).then(|| NodeWay {
+                    weight: mass / (mass + light),
+                    moved: vector(end) * dt,
+                    straining: vector(&straining[node]) * dt,
+                })
+            })
+        };
+        let cracks;
         let mut pass = Pass {
             field: &nodes.end,
             carried: settings.transfer.carries().then_some(&nodes.carried),
@@ -241,8 +248,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
             giving: Giving::MomentumOn,
         };
         match stress_update {
-            StressUpdate::First => phases.move_particles(scene, sums, pass)?,
+            StressUpdate::First => {
+                cracks = carry(scene, sums, &nodes.end, &nodes.straining)?;
+                phases.move_particles(scene, sums, pass)?;
+            }
             StressUpdate::Last => {
+                cracks = carry(scene, sums, &nodes.end, &nodes.end)?;
                 pass.strains = true;
                 pass.giving = Giving::AllOn;
                 if !goes_on {
@@ -259,6 +270,7 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Explicit<S, D> {
                 phases.move_particles(scene, sums, pass)?;
                 phases.meetings.bond(sums);
                 phases.straining(sums, &mut nodes.straining, Gap::End(&nodes.end));
+                cracks = carry(scene, sums, &nodes.end, &nodes.straining)?;
                 let pass = Pass {
                     field: &nodes.straining,
                     carried: None,

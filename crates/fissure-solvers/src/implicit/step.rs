@@ -13,7 +13,7 @@ use super::scheme::{Scheme, Start};
 use super::settings::ImplicitSettings;
 use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carried, refine};
+use crate::crack_motion::{NodeWay, carried, refine};
 use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
 use crate::equilibrium::choice::LinearSolver;
 use crate::equilibrium::failure::Failure;
@@ -87,7 +87,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
         }
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
-                refine(scene, &self.grid);
+                refine(scene, &self.grid, &self.placement);
                 self.force_scale = 0.0;
                 self.carried.clear();
                 self.pace.next = self.settings.step;
@@ -223,7 +223,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
     ) -> Result<Report<D>, SolveError> {
         let (links, displacement) = (&self.system.links, &self.displacement);
         let cracks = carried(scene, &self.grid, &self.placement, |node| {
-            links.number(node).map(|_| (1.0, displacement[node]))
+            links.number(node).map(|_| NodeWay::of(displacement[node]))
         })?;
         cracks.accept(scene, &mut self.placement);
         for body in scene.bodies_mut() {

@@ -15,7 +15,7 @@ use super::settings::{Averaging, QuasiStaticSettings};
 use super::trial::Equilibrium;
 use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
-use crate::crack_motion::{carried, refine};
+use crate::crack_motion::{NodeWay, carried, refine};
 use crate::equilibrium::balance::strain;
 use crate::equilibrium::one_strain::Deviations;
 use crate::equilibrium::pace::Pace;
@@ -161,7 +161,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         }
         if self.placement.is_edited(scene) {
             if !std::mem::take(&mut self.recalled) {
-                refine(scene, &self.grid);
+                refine(scene, &self.grid, &self.placement);
                 (self.force_scale, self.has_stepped) = (0.0, false);
                 self.arc_length = 0.0;
                 self.last_control = StepControl::Prescribed;
@@ -220,7 +220,10 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
             embedded.keep();
         }
         let cracks = carried(scene, grid, placement, |node| {
-            system.links.number(node).map(|_| (1.0, displacement[node]))
+            system
+                .links
+                .number(node)
+                .map(|_| NodeWay::of(displacement[node]))
         })?;
         let mut glued = self.faces.glued(displacement);
         cracks.accept(scene, placement);

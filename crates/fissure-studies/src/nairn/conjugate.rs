@@ -28,15 +28,18 @@ impl StressMeasure {
         })
     }
 
-    /// Fills a body with the law.
-    pub(super) fn fill<N: Softening, T: Softening, const D: usize>(
+    /// Fills a body with the law, of one crack or two.
+    pub(super) fn fill<L: Cracking, const D: usize>(
         self,
         scene: &mut Scene<D>,
         name: &str,
-        law: AnisotropicDamage<N, T>,
+        law: L,
         region: &dyn Region<D>,
         seeding: &dyn Seeding<D>,
-    ) -> Result<(), StudyError> {
+    ) -> Result<(), StudyError>
+    where
+        ConjugateDamage<L>: Material,
+    {
         let filled = match self {
             Self::Conjugate => scene.fill(name, ConjugateDamage(law), region, seeding),
             Self::Rotated => scene.fill(name, law, region, seeding),

@@ -3,6 +3,7 @@
 use fissure_tensor::Matrix3;
 
 use super::{TwoCrackDamage, TwoCrackState};
+use crate::stress_measure::Turned;
 use crate::{Biot, Increment, Material, MaterialError, Response, Scale, Softening};
 
 /// The law of a sheet of fixed thickness, to take differences of.
@@ -27,6 +28,6 @@ impl<N: Softening, T: Softening> Material for Sheet<N, T> {
     ) -> Result<Response<TwoCrackState>, MaterialError> {
         let kinematics = Biot::new(&increment.f_new)?;
         let step = self.0.step::<true>(&kinematics, increment, old)?;
-        Ok(self.0.response(&kinematics, &step, old))
+        Ok(self.0.response::<Turned>(&kinematics, &step, old))
     }
 }

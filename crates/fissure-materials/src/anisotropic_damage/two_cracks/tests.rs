@@ -1,3 +1,5 @@
+mod conjugate;
+
 use super::*;
 use crate::Cracking;
 use crate::contract::Random;

@@ -104,13 +104,6 @@ impl Bar {
         }
         let measure = StressMeasure::of(case)?;
         let two_cracks = case.choice("cracks")? == "two";
-        if two_cracks && measure != StressMeasure::Rotated {
-            return Err(StudyError::combination(
-                case,
-                &["cracks", "measure"],
-                "two cracks have the rotated stress only",
-            ));
-        }
         let (speed, rise) = (case.number("speed")?, case.number("rise")?);
         let end = case.number("strain")? * length / speed + 0.5 * rise;
         if !(end >= rise) {
@@ -246,9 +239,8 @@ impl Bar {
         };
         let whole = part(0.0, self.length);
         if self.two_cracks {
-            scene
-                .fill(BODY, TwoCrackDamage(self.law), &whole, &seeding)
-                .map_err(failed())?;
+            let law = TwoCrackDamage(self.law);
+            self.measure.fill(scene, BODY, law, &whole, &seeding)?;
         } else {
             self.measure.fill(scene, BODY, self.law, &whole, &seeding)?;
         }
