@@ -113,6 +113,20 @@ pub(crate) fn stress_forces<S: Shape<D>, const D: usize>(
     Ok(())
 }
 
+/// What rounding leaves of the forces of balanced stresses, N: norm over all nodes, which are `spacing` apart.
+///
+/// A deformation gradient near 1 is known to `ε`, a stress so to `ε ρ c²`, and the force of a particle on one of its `2^D`
+/// nodes to that times `V/h`. Errors of different particles add as independent ones do.
+pub(crate) fn round_off<const D: usize>(scene: &Scene<D>, spacing: f64) -> f64 {
+    let mut square = 0.0;
+    for body in scene.bodies() {
+        let masses = body.particles().mass.iter();
+        square += body.wave_speed().powi(4) * masses.map(|mass| mass * mass).sum::<f64>();
+    }
+    let nodes = f64::from(1_u32 << D);
+    f64::EPSILON / spacing * (nodes * square).sqrt()
+}
+
 /// What is out of balance.
 pub(crate) struct Unbalanced {
     /// Force on every active node, component by component, N.

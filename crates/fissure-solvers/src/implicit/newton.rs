@@ -42,6 +42,8 @@ pub(super) struct Attempt<'a, S, const D: usize> {
     pub external_end: Vec<SVector<f64, D>>,
     /// Largest force so far, N: what residuals are measured by.
     pub force_scale: f64,
+    /// What rounding leaves of the internal forces, N.
+    pub round_off: f64,
 }
 
 /// A balanced end of the step; the trial motion of the scene holds it.

@@ -102,7 +102,7 @@ impl<S: Shape<D>, const D: usize> Attempt<'_, S, D> {
             force,
             size: norm(&free),
             scale: self.force_scale.max(largest),
-            floor: ROUND_OFF * moved.sqrt(),
+            floor: self.round_off.max(ROUND_OFF * moved.sqrt()),
         })
     }
 

@@ -14,7 +14,7 @@ use super::settings::ImplicitSettings;
 use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{NodeWay, carried, refine};
-use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta};
+use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta, round_off};
 use crate::equilibrium::choice::LinearSolver;
 use crate::equilibrium::failure::Failure;
 use crate::equilibrium::pace::Pace;
@@ -199,6 +199,7 @@ impl<S: Shape<D>, const D: usize> Implicit<S, D> {
             external_start,
             external_end,
             force_scale: self.force_scale,
+            round_off: round_off(scene, self.grid.spacing()),
         };
         let balanced = attempt.solve(
             scene,

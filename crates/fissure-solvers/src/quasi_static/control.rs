@@ -11,7 +11,7 @@ use super::settings::LoadControl;
 use super::step::QuasiStatic;
 use super::trial::{Equilibrium, Start, Trial};
 use crate::checks::outside;
-use crate::equilibrium::balance::{At, external_forces, forces, momenta, stress_forces};
+use crate::equilibrium::balance::{At, external_forces, forces, momenta, round_off, stress_forces};
 use crate::equilibrium::failure::Failure;
 use crate::transfers::Transfers;
 
@@ -88,6 +88,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 momenta,
                 external,
                 internal: forces(sums),
+                round_off: round_off(scene, self.grid.spacing()),
             },
             scene,
             transfers,

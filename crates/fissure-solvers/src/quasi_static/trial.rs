@@ -74,6 +74,8 @@ pub(super) struct Start<const D: usize> {
     pub momenta: Vec<SVector<f64, D>>,
     pub external: Vec<SVector<f64, D>>,
     pub internal: Vec<SVector<f64, D>>,
+    /// What rounding leaves of the forces, N.
+    pub round_off: f64,
 }
 
 /// What a trial leaves unbalanced.
@@ -234,7 +236,9 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
         let found = unbalanced(links, freedoms, self.internal, &outer);
         // Of this state and of the steps accepted before, not of iterates that were left.
         let scale = self.force_scale.max(found.scale);
-        let mut error = found.residual / if scale > 0.0 { scale } else { 1.0 };
+        // No more is asked than rounding lets be had.
+        let measure = scale.max(self.start.round_off / self.settings.tolerance);
+        let mut error = found.residual / if measure > 0.0 { measure } else { 1.0 };
         if !scale.is_finite() {
             error = f64::INFINITY;
         }
