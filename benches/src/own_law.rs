@@ -1,6 +1,5 @@
 //! A law as a user would write it, with nothing but what the library makes public (see docs/own-law.md).
 
-use fissure::materials::{EIGHT, EightPoints, EightResponses};
 use fissure::prelude::*;
 
 /// `ψ = μ/2 (tr C − 3) − μ (J − 1) + λ/2 (J − 1)²`, so that `σ = (μ b + J (λ (J − 1) − μ) 1)/J`; with `EIGHTS` it

@@ -55,8 +55,8 @@ pub struct Solution {
     pub load_step: f64,
     /// What was held fixed.
     pub control: StepControl,
-    /// Negative pivots of the last tangent that was factorised: 0 on a branch that is stable under these
-    /// conditions; `None` without a factorisation.
+    /// Negative pivots of the last tangent that was factorised in the step, of its symmetric part if it is not symmetric: 0 on a
+    /// branch that is stable under these conditions. `None` where none was factorised or only as `L U`.
     pub negative_pivots: Option<usize>,
     /// How often the step was cut before.
     pub cuts: usize,

@@ -5,9 +5,14 @@
 //! An imperfection makes one line a little less weak; the branch found must not depend on it as it goes
 //! to zero.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fissure::io::plot::{LinePlot, Style};
 use fissure_study::{Overrides, Parameter, Parameters, Report as Rows, Study, StudyError};
 
-use crate::bar::{self, Bar, break_bar, row};
+use crate::bar::drawing::{ROWS, sampled, save};
+use crate::bar::{self, Bar, Thinned, break_bar, row};
 use crate::method::on_threads;
 
 /// The study `bar-bifurcation`.
@@ -45,6 +50,8 @@ impl Study for BarBifurcation {
     }
 
     fn run(&self, cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
+        // A picture per solver.
+        let mut curves: BTreeMap<String, Vec<(String, Bar, Thinned)>> = BTreeMap::new();
         for case in cases {
             rows.progress(&case.label());
             let bar = Bar::new(case)?;
@@ -62,10 +69,43 @@ impl Study for BarBifurcation {
             row.values
                 .insert("load_l2_symmetric", error.unwrap_or(f64::NAN));
             rows.row(row)?;
+            let label = format!("imperfection {:e}", case.number("imperfection")?);
+            let of_solver = curves.entry(case.choice("solver")?.to_owned()).or_default();
+            of_solver.push((label, bar, finished.history.thinned(ROWS)));
             if let Some(reason) = &finished.stopped {
                 rows.note(&format!("the run above stopped early: {reason}"))?;
             }
         }
-        Ok(())
+        match rows.out_dir() {
+            Some(folder) => draw(&curves, folder),
+            None => Ok(()),
+        }
     }
+}
+
+/// Loads over the elongation beside the exact ones of one crack and of two.
+fn draw(
+    curves: &BTreeMap<String, Vec<(String, Bar, Thinned)>>,
+    folder: &Path,
+) -> Result<(), StudyError> {
+    for (solver, runs) in curves {
+        let mut plot = LinePlot::new(&format!("Two lines that are equally weak, {solver}"))
+            .x_label("elongation [m]")
+            .y_label("load [N]");
+        for (label, _, history) in runs {
+            plot = plot.series(label, &history.elongation, &history.load, Style::Line);
+        }
+        if let Some((_, bar, _)) = runs.first() {
+            let one = bar.exact();
+            let (x, load) = sampled(&one, |exact, at| exact.load(at));
+            let mut both = one;
+            both.toughness *= 2.0;
+            let two: Vec<f64> = x.iter().map(|x| both.load(*x)).collect();
+            plot = plot
+                .series("one opens", x.clone(), load, Style::Dashed)
+                .series("both open", x, two, Style::Dashed);
+        }
+        save(plot, &folder.join(format!("load-{solver}.png")))?;
+    }
+    Ok(())
 }

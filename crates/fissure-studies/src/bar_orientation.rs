@@ -81,6 +81,11 @@ impl Study for BarOrientation {
                 .sweep("h", [0.005, 0.0025])
                 .sweep("angle", [15.0, 30.0, 45.0])
                 .set("law", "prescribed"),
+            // One strain in all of a cell.
+            turned(&["rotated"])
+                .set("h", 0.01)
+                .set("strain", "cell")
+                .sweep("law", ["prescribed", "no-shear"]),
             // Where the bar is weaker, sec. 5.4.
             base()
                 .sweep("h", [0.02, 0.01, 0.005])

@@ -182,12 +182,18 @@ fn cooks_membrane_does_not_lock_with_averaged_volume_changes() {
     let settings = [
         "material=nearly-incompressible",
         "shape=linear",
-        "h=2",
+        "h=4",
         "volume=patch",
+        "poisson=0.49,0.499,0.4999,0.49999",
     ];
     let rows = rows("cook", &settings);
-    let error = number(&rows[0], "errors", "displacement");
-    assert!(error <= 0.05, "{error}");
+    let found: Vec<f64> = rows
+        .iter()
+        .filter(|row| row["errors"].is_object())
+        .map(|row| number(row, "values", "u_y"))
+        .collect();
+    assert_eq!(found.len(), 4);
+    assert!(found.iter().all(|way| *way >= 0.95 * 7.7), "{found:?}");
 }
 
 #[test]

@@ -53,7 +53,7 @@ pub use nalgebra;
 pub mod prelude {
     pub use crate::Error;
     pub use fissure_diagnostics::{
-        EnergyBalance, EnergyHistory, FailedZone, LoadCurve, LoadDisplacement, Record,
+        EnergyBalance, EnergyGuard, EnergyHistory, FailedZone, LoadCurve, LoadDisplacement, Record,
         SectionForce, curve_error, fit_slope, fracture, section_force, state_hash,
     };
     pub use fissure_grid::{Grid, QuadMesh, Shape, shape};
@@ -65,13 +65,14 @@ pub mod prelude {
     pub use fissure_io::vtk::{Compression, ParticleSeries, Series};
     pub use fissure_materials::{
         AnisotropicDamage, Axis, Biot, Burn, Cohesive, Component, ConjugateDamage, Control, Crack,
-        Cracking, DamagePlane, Decohesive, EllipticalDamage, Entry, Event, EventKind, Expansion,
-        External, GradientLeg, Hencky, Implex, Increment, Isotropic, J2, Jump, Jwl, Leg,
-        LoweredStrength, Material, MaterialError, MazarsDamage, MazarsSoftening, MixedMode, Mode,
-        NeoHookean, Normal, Onset, Orthotropic, OrthotropicDamage, Path, PlaneStress, Point,
-        ProgramBurn, RankineDamage, Response, Sample, ScalarDamage, Scale, Softening,
-        SteppedCircleDamage, SubSteps, Thermal, Traction, TractionSeparation, TwoCrackDamage,
-        ViscousDamage, check_parameter, contract, criteria, hardening, localization, multi_crack,
+        Cracking, DamagePlane, Decohesive, EIGHT, EightPoints, EightResponses, EllipticalDamage,
+        Entry, Event, EventKind, Expansion, External, GradientLeg, Hencky, Implex, Increment,
+        Isotropic, J2, Jump, Jwl, Leg, LoweredStrength, Material, MaterialError, MazarsDamage,
+        MazarsSoftening, MixedMode, Mode, NeoHookean, Normal, Onset, Orthotropic,
+        OrthotropicDamage, Path, PlaneStress, Point, ProgramBurn, RankineDamage, Response, Sample,
+        ScalarDamage, Scale, Softening, SteppedCircleDamage, SubSteps, Thermal, Traction,
+        TractionSeparation, TwoCrackDamage, ViscousDamage, check_parameter, contract, criteria,
+        hardening, localization, multi_crack,
         multi_crack::{ModeOne, MultiCrack, Planes},
         softening,
     };

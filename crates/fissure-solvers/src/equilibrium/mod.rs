@@ -10,6 +10,8 @@
 pub(crate) mod averages;
 pub(crate) mod balance;
 pub(crate) mod choice;
+#[cfg(test)]
+mod derivative_tests;
 pub(crate) mod descent;
 pub(crate) mod divided;
 pub(crate) mod failure;

@@ -13,8 +13,8 @@ pub struct StepStatistics {
     pub products: Vec<usize>,
     /// Why the last linear iteration ended.
     pub linear_stop: Option<Stop>,
-    /// Negative pivots of the last factorisation, 0 without one.
-    pub negative_pivots: usize,
+    /// Negative pivots of the last factorisation of the step; `None` where none has counted them.
+    pub negative_pivots: Option<usize>,
     /// Why Newton's method ended.
     pub stop: Option<NewtonStop>,
     /// How often the step was cut.

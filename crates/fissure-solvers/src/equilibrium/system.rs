@@ -209,9 +209,9 @@ impl<const D: usize> System<D> {
         Ok(forces)
     }
 
-    /// Negative pivots of the last factorisation.
-    pub(crate) fn negative_pivots(&self) -> usize {
-        self.direct.as_ref().map_or(0, Direct::negative_pivots)
+    /// Negative pivots of the last factorisation, if it has counted them.
+    pub(crate) fn negative_pivots(&self) -> Option<usize> {
+        self.direct.as_ref().and_then(Direct::negative_pivots)
     }
 
     /// The same by Krylov iterations with the assembled matrix, to a relative residual `accuracy`.

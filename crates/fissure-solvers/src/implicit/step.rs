@@ -14,8 +14,9 @@ use super::settings::ImplicitSettings;
 use crate::checks::{check_columns, check_mesh, check_until, outside};
 use crate::constraints::Constraints;
 use crate::crack_motion::{NodeWay, carried, refine};
-use crate::equilibrium::balance::{At, external_forces, forces, internal_forces, momenta, round_off};
-use crate::equilibrium::choice::LinearSolver;
+use crate::equilibrium::balance::{
+    At, external_forces, forces, internal_forces, momenta, round_off,
+};
 use crate::equilibrium::failure::Failure;
 use crate::equilibrium::pace::Pace;
 use crate::equilibrium::statistics::StepStatistics;
@@ -313,13 +314,12 @@ impl<S: Shape<D>, const D: usize> Solver<D> for Implicit<S, D> {
                 Ok(report) => {
                     self.statistics.stop = Some(NewtonStop::Converged);
                     self.pace.accepted(dt, cuts, self.settings.step);
-                    let direct = self.settings.linear == LinearSolver::Direct;
                     let report = Report {
                         solution: Some(Solution {
                             load_time: report.time,
                             load_step: dt,
                             control: StepControl::Prescribed,
-                            negative_pivots: direct.then_some(self.statistics.negative_pivots),
+                            negative_pivots: self.statistics.negative_pivots,
                             cuts,
                             stop: NewtonStop::Converged,
                         }),

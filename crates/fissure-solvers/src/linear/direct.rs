@@ -60,7 +60,7 @@ pub struct Direct<const D: usize> {
     damping: f64,
     factor: Option<Factor>,
     symmetric: bool,
-    negative_pivots: usize,
+    negative_pivots: Option<usize>,
 }
 
 impl<const D: usize> std::fmt::Debug for Direct<D> {
@@ -109,7 +109,7 @@ impl<const D: usize> Direct<D> {
             damping: 0.0,
             factor: None,
             symmetric: true,
-            negative_pivots: 0,
+            negative_pivots: None,
         })
     }
 
@@ -123,8 +123,9 @@ impl<const D: usize> Direct<D> {
         self.factor
     }
 
-    /// Negative pivots of the last symmetric factorisation; 0 after an unsymmetric one.
-    pub fn negative_pivots(&self) -> usize {
+    /// Negative pivots of the matrix last given to [`factorise`](Self::factorise), of its symmetric part if it is not
+    /// symmetric; `None` where only `L U` was found.
+    pub fn negative_pivots(&self) -> Option<usize> {
         self.negative_pivots
     }
 
@@ -145,7 +146,7 @@ impl<const D: usize> Direct<D> {
             return Err(LinearError::Pattern);
         }
         self.factor = None;
-        self.negative_pivots = 0;
+        self.negative_pivots = None;
         self.damping = damping;
         self.scale = matrix.unit_scale();
         let asymmetry = matrix.asymmetry(&self.scale);
@@ -157,8 +158,10 @@ impl<const D: usize> Direct<D> {
         self.symmetric = asymmetry <= SYMMETRIC;
         if self.cholesky() {
             self.factor = Some(Factor::Cholesky);
+            self.negative_pivots = Some(0);
         } else if self.signed_cholesky() {
             self.factor = Some(Factor::SignedCholesky);
+            self.negative_pivots = self.negative_signs();
         } else {
             self.factorise_unsymmetric(matrix)?;
         }
@@ -238,18 +241,20 @@ impl<const D: usize> Direct<D> {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
-        if done.is_err() {
-            return false;
-        }
-        if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.plan.symbolic.raw() {
-            let factor = SupernodalLdltRef::new(symbolic, &self.factor_values);
-            for supernode in 0..symbolic.n_supernodes() {
-                let block = factor.supernode(supernode).val();
-                let negative = (0..block.ncols()).filter(|&k| block[(k, k)] < 0.0);
-                self.negative_pivots += negative.count();
-            }
-        }
-        true
+        done.is_ok()
+    }
+
+    /// Negative entries of `D`.
+    fn negative_signs(&self) -> Option<usize> {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.plan.symbolic.raw() else {
+            return None;
+        };
+        let factor = SupernodalLdltRef::new(symbolic, &self.factor_values);
+        let negative = |supernode: usize| {
+            let block = factor.supernode(supernode).val();
+            (0..block.ncols()).filter(|&k| block[(k, k)] < 0.0).count()
+        };
+        Some((0..symbolic.n_supernodes()).map(negative).sum())
     }
 
     /// Solves in place of the right side with the held factorisation of `matrix`.

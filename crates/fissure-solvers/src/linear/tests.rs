@@ -135,7 +135,7 @@ fn check_direct<const D: usize>(
 fn every_factorisation_solves_and_counts_its_negative_pivots() {
     let (matrix, positions) = elastic([9, 7]);
     let direct = check_direct(&matrix, &positions, Factor::Cholesky);
-    assert_eq!(direct.negative_pivots(), 0);
+    assert_eq!(direct.negative_pivots(), Some(0));
     let (space, places) = elastic([4, 5, 3]);
     check_direct(&space, &places, Factor::Cholesky);
 
@@ -148,7 +148,7 @@ fn every_factorisation_solves_and_counts_its_negative_pivots() {
     let negative = negative.iter().filter(|&&value| value < 0.0).count();
     assert!(negative > 3);
     let direct = check_direct(&shifted, &positions, Factor::SignedCholesky);
-    assert_eq!(direct.negative_pivots(), negative);
+    assert_eq!(direct.negative_pivots(), Some(negative));
 
     let mut skew = matrix.clone();
     for node in 0..skew.pattern().nodes() {

@@ -42,7 +42,7 @@ pub(super) fn balanced<S: Shape<D>, const D: usize>(
         if let Ok(balance) = &tried {
             trial.statistics.residuals.push(balance.error);
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
-            if placed && balance.error <= trial.settings.tolerance {
+            if placed && balance.is_balanced {
                 return Ok(trial.equilibrium(balance, &loads, iteration));
             }
             trial.ended(iteration, balance.error)?;

@@ -100,10 +100,11 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
         &self.statistics
     }
 
-    /// Negative pivots of the last tangent factorised, its damping included: 0 on a stable branch; each
-    /// stands for a direction in which equilibrium is not stable. Of a tangent that is not symmetric
-    /// those of the symmetric part.
-    pub fn negative_pivots(&self) -> usize {
+    /// Negative pivots of the last tangent factorised, its damping included: 0 on a stable branch. Of a symmetric tangent each
+    /// stands for a direction in which equilibrium is not stable; of one that is not those of the symmetric part are counted,
+    /// of which 0 means a stable branch too but one does not mean an unstable one. `None` where no such factor was found, and before the
+    /// first.
+    pub fn negative_pivots(&self) -> Option<usize> {
         self.system.negative_pivots()
     }
 
@@ -272,7 +273,7 @@ impl<S: Shape<D>, const D: usize> QuasiStatic<S, D> {
                 load_time,
                 load_step,
                 control,
-                negative_pivots: Some(self.statistics.negative_pivots),
+                negative_pivots: self.statistics.negative_pivots,
                 cuts: self.statistics.cuts,
                 stop: NewtonStop::Converged,
             }),

@@ -85,6 +85,8 @@ pub(super) struct Balance {
     pub force: Vec<f64>,
     /// Norm of what is not held of it, over what it is measured by.
     pub error: f64,
+    /// Whether that is within the tolerance, or within what rounding leaves.
+    pub is_balanced: bool,
     scale: f64,
 }
 
@@ -236,16 +238,18 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
         let found = unbalanced(links, freedoms, self.internal, &outer);
         // Of this state and of the steps accepted before, not of iterates that were left.
         let scale = self.force_scale.max(found.scale);
-        // No more is asked than rounding lets be had.
-        let measure = scale.max(self.start.round_off / self.settings.tolerance);
-        let mut error = found.residual / if measure > 0.0 { measure } else { 1.0 };
+        let mut error = found.residual / if scale > 0.0 { scale } else { 1.0 };
         if !scale.is_finite() {
             error = f64::INFINITY;
         }
+        // No more is asked than rounding lets be had.
+        let is_balanced = error <= self.settings.tolerance
+            || scale.is_finite() && found.residual <= self.start.round_off;
         Ok(Balance {
             totals,
             force: found.force,
             error,
+            is_balanced,
             scale,
         })
     }

@@ -5,6 +5,7 @@
 mod bar;
 mod explicit;
 mod orders;
+mod ring;
 mod solvers;
 mod stiff;
 mod tangent;

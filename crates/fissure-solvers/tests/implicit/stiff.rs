@@ -186,8 +186,17 @@ fn wide() -> Grid<2> {
     Grid::over([-0.5, -0.5], [1.5, 0.75], 0.125).unwrap()
 }
 
-/// X1: the forces at the two grips of the bar agree, for every solver and ratios up to 1e6. X2: so they do
-/// up to a Poisson's ratio of 0.49999.
+/// Mean stress along the bar of a body's particles within a cell of the interface, Pa.
+fn at_interface(scene: &Scene<2>, body: &str) -> f64 {
+    let motion = scene.body(body).unwrap().motion();
+    let near = motion.position.iter().zip(motion.stress);
+    let near = near.filter(|(x, _)| (x[0] - 0.5).abs() < 0.125);
+    let (sum, count) = near.fold((0.0, 0), |(sum, n), (_, stress)| (sum + stress.xx(), n + 1));
+    sum / f64::from(count)
+}
+
+/// X1: the forces at the two grips of the bar agree and the stress is the same on both sides of the interface, for every
+/// solver and ratios up to 1e6. X2: so they do up to a Poisson's ratio of 0.49999.
 #[test]
 fn x1_and_x2_bodies_that_are_not_alike() {
     let iterative = |method, product, preconditioner| {
@@ -218,12 +227,7 @@ fn x1_and_x2_bodies_that_are_not_alike() {
         (1.0, 0.49),
         (1.0, 0.49999),
     ] {
-        // Round-off of the deformation gradient times the stiffness is what no iteration removes.
-        let tolerance: f64 = if poisson > 0.4 {
-            1e-6
-        } else {
-            f64::max(1e-8, 1e-11 * ratio)
-        };
+        let tolerance = 1e-8;
         let mut forces = Vec::new();
         for linear in solvers {
             let mut scene = two(ratio, poisson);
@@ -250,6 +254,13 @@ fn x1_and_x2_bodies_that_are_not_alike() {
             // What is left is what sets the bar in motion.
             assert!((pull.0 + pull.1).abs() <= 1e-4 * pull.1.abs(), "{pull:?}");
             forces.push(pull.1);
+            // The bound is 1 %. What is seen is how much more the soft side necks, by a strain of 2e-3.
+            let [soft, stiff] = ["soft", "stiff"].map(|body| at_interface(&scene, body));
+            let jump = (soft / stiff - 1.0).abs();
+            println!(
+                "{ratio:e} {poisson} {linear:?}: {products} products, stress jumps by {jump:.1e}"
+            );
+            assert!(jump <= 1e-3, "{soft} {stiff}");
         }
         let mut still = two(ratio, poisson);
         let settings = QuasiStaticSettings {

@@ -284,8 +284,9 @@ fn a_failed_step_leaves_the_scene() {
         let settings = QuasiStaticSettings {
             step: peak(length) / 10.0,
             control,
-            // Not even the elastic steps end in round-off of round-off.
-            tolerance: 1e-300,
+            // One correction leaves what strains and displacements of second order do.
+            tolerance: 1e-12,
+            max_iterations: 1,
             max_cuts: 1,
             ..QuasiStaticSettings::default()
         };

@@ -28,7 +28,7 @@ impl Problem for BarVibration {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let mut parameters = method::parameters(&SPACINGS, &["explicit"]);
+        let mut parameters = method::parameters(&SPACINGS, &["explicit", "implicit"]);
         parameters.extend([
             Parameter::choice(
                 "ends",
@@ -59,8 +59,20 @@ impl Problem for BarVibration {
         let spacings = if quick { &SPACINGS[..2] } else { &SPACINGS[..] };
         let over_h = || Overrides::new().sweep("h", spacings.iter().copied());
         if quick {
-            return vec![over_h()];
+            return vec![
+                over_h(),
+                Overrides::new()
+                    .set("h", SPACINGS[1])
+                    .set("solver", "implicit")
+                    .sweep("steps", [200_u64, 400]),
+            ];
         }
+        let implicit = || {
+            Overrides::new()
+                .set("h", SPACINGS[2])
+                .set("solver", "implicit")
+                .sweep("steps", [200_u64, 400, 800, 1600])
+        };
         vec![
             over_h().sweep("shape", method::SHAPES.iter().copied()),
             over_h().set("ends", "fixed-free"),
@@ -71,6 +83,10 @@ impl Problem for BarVibration {
                 .set("h", SPACINGS[2])
                 .sweep("update", ["first", "last", "musl"])
                 .sweep("cfl", [0.8, 0.4, 0.2, 0.1, 0.05]),
+            implicit().sweep("integration", ["generalized-alpha", "newmark"]),
+            implicit()
+                .set("integration", "theta")
+                .sweep("weight", [0.5, 1.0]),
         ]
     }
 

@@ -164,8 +164,9 @@ impl Problem for VortexMms {
             still().sweep("cfl", [0.4, 0.2, 0.1, 0.05]),
             still()
                 .set("solver", "implicit")
+                .set("shape", "bspline2")
                 .sweep("integration", ["theta", "newmark", "generalized-alpha"])
-                .sweep("steps", [4_u64, 8, 16]),
+                .sweep("steps", [4_u64, 8, 16, 32]),
         ]
     }
 
