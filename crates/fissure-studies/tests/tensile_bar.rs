@@ -41,6 +41,19 @@ fn quasi_static_bar_follows_the_exact_curve() {
     );
 }
 
+/// On the document's finest grid, h⁻¹ = 400.
+#[test]
+fn quasi_static_bar_is_within_a_hundredth_on_the_finest_grid() {
+    let settings = [
+        "solver=quasi-static",
+        "shape=linear",
+        "h=0.0025",
+        "steps=40",
+    ];
+    let rows = rows("tensile-bar", &settings);
+    assert_within(&rows[0], &[("load_l2", 0.01)]);
+}
+
 #[test]
 fn implicit_bar_agrees_with_the_one_in_equilibrium() {
     let rows = rows(
