@@ -28,3 +28,23 @@ fn one_plane_dissipates_its_toughness_and_several_planes_more() {
         assert!(imbalance.abs() <= 0.05, "{imbalance} in {row}");
     }
 }
+
+/// X14: a specimen that has split goes on in finite steps, carries nothing and makes no energy.
+#[test]
+fn x14_a_specimen_that_has_split_goes_on() {
+    let settings = [
+        "failure=multiple",
+        "faces=free",
+        "h=0.025",
+        "ligament=0.15",
+        "elongation=24",
+        "speed=0.1",
+        "rise=0.0005",
+    ];
+    let row = rows("compact-tension", &settings).remove(0);
+    let value = |name| number(&row, "values", name);
+    assert!(value("failed_ligament") >= 0.9, "{row}");
+    assert!(value("last_load").abs() <= 0.05, "{row}");
+    assert!(value("energy_imbalance").abs() <= 2e-3, "{row}");
+    assert!(value("stored_per_area") <= 1.0, "{row}");
+}
