@@ -67,7 +67,7 @@ impl Study for CompactTension {
         parameters.extend([
             Parameter::number("ligament", "length b of the ligament", "m", 0.15, positive()),
             Parameter::choice("failure", "planes on which the notch line may fail", "multiple", &["multiple", "ideal"]),
-            Parameter::choice("faces", "shear along an open plane: as in sound material (the document), none, or falling with the traction", "elastic", &["elastic", "free", "damaged"]),
+            Parameter::choice("faces", "shear along an open plane (multiple): as in sound material (the document; ideal always), none, or falling with the traction", "elastic", &["elastic", "free", "damaged"]),
             Parameter::number("threshold", "least angle between planes of a point", "degrees", 15.0, Permitted::between(0.0, 90.0)),
             Parameter::choice("grip", "where the rigid points are: on a line of the grid, about which the arms turn, or in a cell, which holds them", "line", &["line", "cell"]),
             Parameter::number("notch", "depth of the notch over b", "1", 1.0, positive()),

@@ -64,11 +64,6 @@ impl Specimen {
         let snapped = |name: &str| -> Result<f64, StudyError> {
             Ok((case.number(name)? * ligament / spacing).round().max(2.0) * spacing)
         };
-        let free_faces = case.choice("faces")? != "elastic";
-        if case.choice("failure")? == "ideal" && free_faces {
-            let reason = "the plane of failure=ideal keeps the shear of sound material";
-            return Err(StudyError::combination(case, &["failure", "faces"], reason));
-        }
         let cells = ligament / spacing;
         if (cells - cells.round()).abs() > 1e-6 {
             let reason = "the ligament must be a whole number of cells";
