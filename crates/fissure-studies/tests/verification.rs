@@ -141,6 +141,10 @@ fn a_bar_vibrates_with_its_frequency() {
             "cfl=0.4",
             "update=musl",
             "transfer=flip",
+            "solver=explicit",
+            "steps=1",
+            "integration=newmark",
+            "weight=1",
         ];
         holds(
             "bar-vibration",
@@ -149,6 +153,29 @@ fn a_bar_vibrates_with_its_frequency() {
             &[("frequency", 1.8)],
         );
     }
+}
+
+#[test]
+fn a_bar_vibrates_with_its_frequency_in_implicit_steps_of_second_order() {
+    let settings = [
+        "ends=free-free",
+        "shape=linear",
+        "h=0.0625",
+        "cfl=0.4",
+        "update=musl",
+        "transfer=flip",
+        "solver=implicit",
+        "steps=200,400,800",
+        "integration=newmark",
+        "weight=1",
+    ];
+    let rows = rows("bar-vibration", &settings);
+    let finest = rows.iter().rfind(|row| row["errors"].is_object()).unwrap();
+    assert!(number(finest, "errors", "frequency") <= 0.01, "{finest}");
+    assert!(number(finest, "errors", "energy") <= 1e-3, "{finest}");
+    let change = |row: &&Value| row["measure"] == "change_of_positions";
+    let order = rows.iter().find(change).unwrap()["order"].as_f64();
+    assert!(order.unwrap() >= 1.8, "{order:?}");
 }
 
 #[test]

@@ -104,14 +104,11 @@ impl Problem for Cook {
         } else {
             &["linear", "bspline2"]
         };
-        let over_h = || Overrides::new().sweep("h", spacings.iter().copied());
         vec![
-            over_h()
+            Overrides::new()
+                .sweep("h", spacings.iter().copied())
                 .sweep("material", ["compressible", "nearly-incompressible"])
                 .sweep("shape", shapes.iter().copied()),
-            over_h()
-                .set("material", "nearly-incompressible")
-                .set("volume", "patch"),
         ]
     }
 
