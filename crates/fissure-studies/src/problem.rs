@@ -116,6 +116,17 @@ pub trait Runs: Study {
     fn run_case(&self, case: &Parameters) -> Result<SimulationRow, StudyError>;
 }
 
+/// What sets a case apart, its name first where it has one, which it tells even if no other case is run.
+fn label(case: &Parameters) -> String {
+    let Ok(name) = case.choice("case") else {
+        return case.label();
+    };
+    match case.label_without(&["case"]).as_str() {
+        "default" => name.to_owned(),
+        rest => format!("{name} {rest}"),
+    }
+}
+
 /// The row of a run that did not reach its end because a step failed: a result, and no reason not
 /// to go on with the others.
 fn stopped(study: &str, case: &Parameters, error: StudyError) -> Result<Row, StudyError> {
@@ -140,6 +151,7 @@ impl<P: Problem> Verification<P> {
 
     fn row(&self, case: &Parameters, outcome: &Outcome) -> SimulationRow {
         let mut row = SimulationRow::new(self.0.name(), case);
+        row.case = label(case);
         if row.solver != "explicit" {
             row.transfer.clear();
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fissure_study::{
-    Overrides, Parameter, Parameters, Permitted, Report as Rows, Row, SimulationRow, Study,
+    Form, Overrides, Parameter, Parameters, Permitted, Report as Rows, Row, SimulationRow, Study,
     StudyError, Value, combinations,
 };
 
@@ -283,7 +283,7 @@ fn inner(case: &Parameters, runs: &dyn Runs) -> Result<Parameters, StudyError> {
     if !permitted {
         return Err(refused());
     }
-    let all = combinations(&Fixed(runs, overrides.clone()), &overrides, false)?;
+    let all = combinations(&Fixed(runs, overrides.clone()), &overrides, Form::Standard)?;
     all.into_iter().next().ok_or_else(refused)
 }
 

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use fissure_studies::studies;
-use fissure_study::{Overrides, combinations};
+use fissure_study::{Form, Overrides, combinations};
 
 #[test]
 fn exit_codes_of_the_process() {
@@ -28,8 +28,9 @@ fn every_study_is_well_defined() {
     for (position, study) in studies.iter().enumerate() {
         let name = study.name();
         assert!(studies[..position].iter().all(|other| other.name() != name));
-        for quick in [false, true] {
-            let cases = combinations(study.as_ref(), &Overrides::new(), quick).unwrap();
+        let full = study.full_cases(&Overrides::new()).map(|_| Form::Full);
+        for form in [Form::Standard, Form::Quick].into_iter().chain(full) {
+            let cases = combinations(study.as_ref(), &Overrides::new(), form).unwrap();
             assert!(!cases.is_empty(), "{name} runs nothing");
         }
     }

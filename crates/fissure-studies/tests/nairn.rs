@@ -52,11 +52,13 @@ fn bars_start_to_fail_at_their_strength() {
         };
         assert_at_most(row, "errors", bounds);
         assert_eq!(number(row, "values", "reached"), 1.0, "{row}");
-        assert_at_most(row, "values", &[("worst_balance", 1e-12)]);
+    }
+    // Through failure in tension, where the halves ring; what softens without failing closes better.
+    for (row, imbalance) in rows.iter().zip([3e-3, 1.5e-4, 1.5e-4, 3e-4]) {
+        let bounds = [("worst_balance", 1e-12), ("energy_imbalance", imbalance)];
+        assert_at_most(row, "values", &bounds);
     }
     let tension = &rows[0];
-    // Through failure too.
-    assert_at_most(tension, "values", &[("energy_imbalance", 0.02)]);
     // One column of particles, 12 of them, has failed all across.
     assert_eq!(number(tension, "values", "failed_particles"), 12.0);
     // The cracks of the round bar contain z: it becomes a chisel, thinner along y alone, straight across its middle.
@@ -84,6 +86,56 @@ fn cases_of_bars_are_chosen_by_name() {
     );
 }
 
+/// Where the independent code stops early: CPDI and plane stress; and quadratic B-splines.
+#[test]
+fn a_bar_necks_to_the_end_with_other_shapes_and_in_plane_stress() {
+    let kinds = [
+        ["shape=cpdi,bspline2", "plane=strain"],
+        ["shape=gimp", "plane=stress"],
+    ];
+    let mut count = 0;
+    for [shape, plane] in kinds {
+        let settings = ["case=necking", shape, plane, "h=0.0015", "length=0.039"];
+        let mut arguments = vec!["--quick"];
+        arguments.extend(settings.iter().flat_map(|set| ["--set", *set]));
+        for row in rows("uniaxial", &arguments) {
+            assert_eq!(number(&row, "values", "reached"), 1.0, "{row}");
+            assert!(number(&row, "values", "neck") < 0.5, "{row}");
+            assert_at_most(&row, "errors", &[("peak", 0.05)]);
+            let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 2e-4)];
+            assert_at_most(&row, "values", &bounds);
+            count += 1;
+        }
+    }
+    assert_eq!(count, 3);
+}
+
+/// Fig. 4B: sections of 8 × 2 mm and 6 × 6 mm.
+#[test]
+fn bars_of_rectangular_and_square_section_neck() {
+    let rows = rows(
+        "uniaxial",
+        &[
+            "--quick",
+            "--set",
+            "case=rectangle,square",
+            "--set",
+            "h=0.002",
+            "--set",
+            "length=0.02",
+        ],
+    );
+    assert_eq!(rows.len(), 2);
+    for row in &rows {
+        assert_eq!(number(row, "values", "reached"), 1.0, "{row}");
+        assert!(number(row, "values", "neck") < 0.6, "{row}");
+        // The square is three cells wide: it necks in one of them.
+        assert_at_most(row, "errors", &[("peak", 0.15)]);
+        let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 4e-4)];
+        assert_at_most(row, "values", &bounds);
+    }
+}
+
 #[test]
 fn a_notch_grows_in_two_rows() {
     let rows = rows("edge-notch", &["--quick", "--set", "mode=damage"]);
@@ -104,7 +156,7 @@ fn a_notch_grows_in_two_rows() {
     assert_at_most(
         row,
         "values",
-        &[("worst_balance", 1e-12), ("energy_imbalance", 0.15)],
+        &[("worst_balance", 1e-12), ("energy_imbalance", 8e-4)],
     );
 }
 
@@ -119,7 +171,10 @@ fn a_line_grows_when_j_reaches_the_toughness() {
     let speed = number(row, "values", "speed_m_s");
     assert!(speed > 300.0 && speed < 901.0, "{row}");
     assert!(number(row, "values", "length_mm") > 17.0, "{row}");
-    assert_at_most(row, "values", &[("worst_balance", 1e-12)]);
+    // Nothing is dissipated in the body: no cost of the crack is to be read from the ledger.
+    assert!(row["values"]["dissipated_per_area"].is_null(), "{row}");
+    let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 0.018)];
+    assert_at_most(row, "values", &bounds);
 }
 
 #[test]
@@ -136,6 +191,9 @@ fn a_crack_is_arrested_at_another_which_then_grows_across() {
     }
     let [lower, upper] = ["lower_growth_mm", "upper_growth_mm"].map(time);
     assert!((lower / upper - 1.0).abs() < 0.1, "{row}");
+    // The faces of lines are pressed together behind the tips.
+    let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 0.05)];
+    assert_at_most(row, "values", &bounds);
 }
 
 #[test]
@@ -156,7 +214,9 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
     // In equilibrium onset asks for less than under a pull that goes on while the process zone grows.
     let still = number(&rows[1], "values", "far_j_at_onset");
     assert!(still > 1.5 && still < 3.0, "{}", rows[1]);
-    assert_at_most(&rows[1], "values", &[("energy_imbalance", 0.01)]);
+    let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 4.5e-4)];
+    assert_at_most(&rows[0], "values", &bounds);
+    assert_at_most(&rows[1], "values", &[("energy_imbalance", 1.1e-3)]);
 }
 
 #[test]
@@ -184,7 +244,10 @@ fn a_coating_cracks_several_times() {
         let strains = cracks.iter().map(|step| step[0].as_f64().unwrap());
         assert!(strains.is_sorted(), "{row}");
     }
-    assert_at_most(&rows[0], "values", &[("energy_imbalance", 0.1)]);
+    for row in &rows[..2] {
+        let bounds = [("worst_balance", 1e-12), ("energy_imbalance", 9e-3)];
+        assert_at_most(row, "values", &bounds);
+    }
 }
 
 #[test]

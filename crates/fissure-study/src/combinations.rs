@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use crate::form::Form;
 use crate::overrides::Overrides;
 use crate::parameter::Parameter;
 use crate::parameter_error::ParameterError;
@@ -18,17 +19,22 @@ use crate::value::Value;
 ///
 /// # Errors
 ///
-/// The study's own definition is inconsistent; the settings are taken as checked.
+/// The study's own definition is inconsistent, or it has no full form; the settings are taken as checked.
 pub fn combinations(
     study: &dyn Study,
     settings: &Overrides,
-    quick: bool,
+    form: Form,
 ) -> Result<Vec<Parameters>, StudyError> {
     let parameters = study.parameters();
     check_declarations(&parameters).map_err(StudyError::Definition)?;
     let mut seen = HashSet::new();
     let mut combinations = Vec::new();
-    let mut cases = study.default_cases(settings, quick);
+    let mut cases = match form {
+        Form::Full => study
+            .full_cases(settings)
+            .ok_or(StudyError::NoFullForm(study.name()))?,
+        _ => study.default_cases(settings, form == Form::Quick),
+    };
     for case in &cases {
         case.check(study.name(), &parameters)
             .map_err(StudyError::Definition)?;

@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser};
 
 use crate::combinations::combinations;
 use crate::command_error::CommandError;
+use crate::form::Form;
 use crate::listing::{parameter_list, study_list};
 use crate::nearest::suggestion;
 use crate::overrides::Overrides;
@@ -23,7 +24,7 @@ use crate::study::{Study, StudyError};
     name = "fissure-studies",
     version,
     override_usage = "fissure-studies [--list] [STUDY] [--params] [--set NAME=VALUE]... \
-                      [--json] [--out DIR] [--quick]"
+                      [--json] [--out DIR] [--quick | --full]"
 )]
 struct CommandLine {
     /// The study to run
@@ -46,6 +47,19 @@ struct CommandLine {
     /// Run a small form of the study
     #[arg(long, requires = "study")]
     quick: bool,
+    /// Run the study in full, which may take days; few studies have such a form
+    #[arg(long, requires = "study", conflicts_with = "quick")]
+    full: bool,
+}
+
+impl CommandLine {
+    fn form(&self) -> Form {
+        match (self.quick, self.full) {
+            (true, _) => Form::Quick,
+            (_, true) => Form::Full,
+            _ => Form::Standard,
+        }
+    }
 }
 
 /// Obeys a command line and returns the exit code: 0, 1 for a failed study, 2 for bad
@@ -111,7 +125,7 @@ fn obey(
         source: Box::new(source),
     };
     if command_line.params {
-        let list = parameter_list(study, command_line.json, command_line.quick).map_err(failed)?;
+        let list = parameter_list(study, command_line.json, command_line.form()).map_err(failed)?;
         output
             .write_all(list.as_bytes())
             .map_err(ReportError::Output)?;
@@ -120,7 +134,7 @@ fn obey(
     let delivery = Delivery {
         json: command_line.json,
         out: command_line.out.clone(),
-        quick: command_line.quick,
+        form: command_line.form(),
     };
     run(study, &settings, &delivery, output, messages).map_err(failed)
 }
@@ -132,7 +146,7 @@ fn run(
     output: &mut (dyn Write + Send),
     messages: &mut (dyn Write + Send),
 ) -> Result<(), StudyError> {
-    let cases = combinations(study, settings, delivery.quick)?;
+    let cases = combinations(study, settings, delivery.form)?;
     let mut report = Report::new(&cases, delivery, output, messages)?;
     if !delivery.json {
         report.note(&format!("{}: {}\n", study.name(), study.about()))?;

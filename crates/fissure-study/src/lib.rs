@@ -6,6 +6,7 @@
 mod combinations;
 mod command_error;
 mod command_line;
+mod form;
 mod listing;
 mod nearest;
 mod number_text;
@@ -24,6 +25,7 @@ mod value;
 
 pub use combinations::combinations;
 pub use command_line::execute;
+pub use form::Form;
 pub use overrides::Overrides;
 pub use parameter::Parameter;
 pub use parameter_error::ParameterError;

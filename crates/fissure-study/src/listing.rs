@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::combinations::combinations;
+use crate::form::Form;
 use crate::overrides::Overrides;
 use crate::parameter::Parameter;
 use crate::parameters::Parameters;
@@ -67,9 +68,9 @@ pub(crate) fn study_list(
 pub(crate) fn parameter_list(
     study: &dyn Study,
     json: bool,
-    quick: bool,
+    form: Form,
 ) -> Result<String, StudyError> {
-    let cases = combinations(study, &Overrides::new(), quick)?;
+    let cases = combinations(study, &Overrides::new(), form)?;
     let parameters = study.parameters();
     let defaults: Vec<Vec<Value>> = parameters
         .iter()
@@ -104,16 +105,12 @@ pub(crate) fn parameter_list(
         ]);
     }
     let plural = if cases.len() == 1 { "" } else { "s" };
-    let form = if quick {
-        "the quick run"
-    } else {
-        "the default run"
-    };
     Ok(format!(
-        "{}: {}\n\n{}\n{form} has {} combination{plural}\n",
+        "{}: {}\n\n{}\nthe {} run has {} combination{plural}\n",
         study.name(),
         study.about(),
         aligned(&lines),
+        form.word(),
         cases.len(),
     ))
 }

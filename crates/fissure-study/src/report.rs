@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::form::Form;
 use crate::parameters::Parameters;
 use crate::row::Row;
 use crate::row_files::RowFiles;
@@ -17,11 +18,11 @@ pub struct Delivery {
     pub json: bool,
     /// The directory for files; none are written without it.
     pub out: Option<PathBuf>,
-    /// The small form of the study.
-    pub quick: bool,
+    /// How large the run is.
+    pub form: Form,
 }
 
-enum Form {
+enum Layout {
     JsonLines,
     Table(Table),
 }
@@ -30,7 +31,7 @@ enum Form {
 pub struct Report<'a> {
     output: &'a mut (dyn Write + Send),
     messages: &'a mut (dyn Write + Send),
-    form: Form,
+    layout: Layout,
     files: Option<RowFiles>,
     quick: bool,
 }
@@ -50,13 +51,13 @@ impl<'a> Report<'a> {
         Ok(Self {
             output,
             messages,
-            form: if delivery.json {
-                Form::JsonLines
+            layout: if delivery.json {
+                Layout::JsonLines
             } else {
-                Form::Table(Table::new(cases))
+                Layout::Table(Table::new(cases))
             },
             files: delivery.out.as_deref().map(RowFiles::create).transpose()?,
-            quick: delivery.quick,
+            quick: delivery.form == Form::Quick,
         })
     }
 
@@ -68,9 +69,9 @@ impl<'a> Report<'a> {
     pub fn row(&mut self, row: impl Into<Row>) -> Result<(), ReportError> {
         let row = row.into();
         let json = serde_json::to_string(&row)?;
-        let lines = match &mut self.form {
-            Form::JsonLines => format!("{json}\n"),
-            Form::Table(table) => table.lines(&row),
+        let lines = match &mut self.layout {
+            Layout::JsonLines => format!("{json}\n"),
+            Layout::Table(table) => table.lines(&row),
         };
         // The file first: a reader that has gone away must not cost the recorded row.
         if let Some(files) = &mut self.files {
@@ -88,12 +89,12 @@ impl<'a> Report<'a> {
     ///
     /// It cannot be written.
     pub fn note(&mut self, text: &str) -> Result<(), ReportError> {
-        match self.form {
-            Form::JsonLines => {
+        match self.layout {
+            Layout::JsonLines => {
                 self.progress(text);
                 Ok(())
             }
-            Form::Table(_) => self.print(&format!("{text}\n")),
+            Layout::Table(_) => self.print(&format!("{text}\n")),
         }
     }
 

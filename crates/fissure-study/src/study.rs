@@ -30,6 +30,11 @@ pub trait Study: Sync {
     /// sub-studies differ in their sweeps chooses by them; they replace values in any case.
     fn default_cases(&self, settings: &Overrides, quick: bool) -> Vec<Overrides>;
 
+    /// As [`default_cases`](Self::default_cases), of a form that may take days; `None` if the default run is all there is.
+    fn full_cases(&self, _settings: &Overrides) -> Option<Vec<Overrides>> {
+        None
+    }
+
     /// Runs every case and hands each result row to the report as soon as it is known.
     ///
     /// # Errors
@@ -55,6 +60,9 @@ pub enum StudyError {
         /// Why they do not go together.
         reason: String,
     },
+    /// The full form of a study that has none was asked for.
+    #[error("study '{0}' has no full form: its default run is all there is; --set refines it")]
+    NoFullForm(&'static str),
     /// A row could not be reported.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -96,6 +104,6 @@ impl StudyError {
 
     /// Whether the user's values are at fault rather than the computation.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::Combination { .. })
+        matches!(self, Self::Combination { .. } | Self::NoFullForm(_))
     }
 }

@@ -13,9 +13,10 @@ use crate::error::check_positive;
 /// ```
 ///
 /// with the changes of external work, stored and kinetic energy (at the time of the stresses), the laws' dissipation, artificial
-/// viscosity, what contacts and stabilising forces took, and transfer loss between two ledgers. For virtual crack closure they are those of two
-/// quasi-static scenes that differ by the crack's length only, or of one before and after its tip
-/// has moved and equilibrium is found again: central in the length, so take it as G at the middle of
+/// viscosity, what contacts and stabilising forces took, and transfer loss between two ledgers. For virtual crack closure they are those of one
+/// quasi-static scene before and after its tip has moved and equilibrium is found again, or of two that differ by the
+/// crack's length only and whose loads act in full from the start: loads and held motions that grow with the step do just the work that is
+/// stored, whatever the length, and (3) of two such scenes is 0. It is central in the length, so take it as G at the middle of
 /// the two. In a dynamic run with a sharp crack nothing is released: what leaves the tip goes into
 /// waves, and (3) is the error of the balance.
 ///

@@ -14,7 +14,11 @@
 //! that no force has to be remembered: what holds them is found anew, by equilibrium. The derivative leaves out how
 //! friction follows the pressure, so that the matrix stays symmetric; which faces touch and which slide settles within
 //! Newton's iterations. A pair that cannot decide stays closed, even if it is pulled: the fields of a node that a crack
-//! grazes may hold a sliver of the material each, with next to no area between them.
+//! grazes may hold a sliver of the material each, with next to no area between them. A crack that is pulled open from
+//! one end may come to that too: faces that start in touch part by a few nodes an iteration, with pressure ahead of them that
+//! comes and goes, and then balance as if they had healed. Where pairs that cannot decide hold against a pull that is no
+//! sliver's when a step has balanced, the whole crack is opened and the step is balanced again from there, in which faces
+//! that overlap close as ever. A step in which they come to hold again is none.
 
 use fissure_grid::Shape;
 use fissure_scene::Scene;
@@ -33,6 +37,23 @@ const FIRM: f64 = 1e4;
 
 /// Changes of what a pair does in a step after which it stays closed: it has no part of the crack of its own to decide by.
 const UNDECIDED: u8 = 6;
+
+/// Pull on all pairs that stay closed so, over the loads, beyond which they are let go: slivers hold less.
+const SLIVERS: f64 = 1e-3;
+
+/// How often they are in a step.
+const LETTINGS: u8 = 2;
+
+/// What has to be done about pairs that stay closed though they are pulled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Held {
+    /// They hold no more than slivers would.
+    Little,
+    /// Their cracks were opened: the step is to be balanced again.
+    LetGo,
+    /// They have been often enough.
+    Much,
+}
 
 /// Two fields of a node.
 #[derive(Clone, Debug)]
@@ -55,6 +76,8 @@ struct Pair<const D: usize> {
     active: bool,
     /// How often that has changed in the step.
     changes: u8,
+    /// Whether it is open the next time it is asked, wherever its faces are.
+    let_go: bool,
 }
 
 /// What a pair does.
@@ -72,6 +95,8 @@ pub(super) struct Faces<const D: usize> {
     pairs: Vec<Pair<D>>,
     /// Whether a pair does something else than it did when it was last asked.
     pub changed: bool,
+    /// How often pairs were let go in the step.
+    lettings: u8,
 }
 
 impl<const D: usize> Faces<D> {
@@ -86,6 +111,7 @@ impl<const D: usize> Faces<D> {
         release: &Release<D>,
     ) -> Result<(), (usize, usize)> {
         self.pairs.clear();
+        self.lettings = 0;
         if scene.cracks().is_empty() {
             return Ok(());
         }
@@ -119,6 +145,7 @@ impl<const D: usize> Faces<D> {
                         state: State::Open,
                         active: false,
                         changes: 0,
+                        let_go: false,
                     });
                 }
             }
@@ -168,6 +195,30 @@ impl<const D: usize> Faces<D> {
                 stiffness,
             });
         }
+    }
+
+    /// Judges what pairs that stay closed hold against a pull in a state that is balanced under loads of this norm, N.
+    pub(super) fn held(&mut self, displacement: &[SVector<f64, D>], loads: f64) -> Held {
+        let pulls = self.pairs.iter().map(|pair| pair.pull(displacement));
+        let square: f64 = pulls.map(|pull| pull * pull).sum();
+        if square.sqrt() <= SLIVERS * loads {
+            return Held::Little;
+        }
+        if self.lettings == LETTINGS {
+            return Held::Much;
+        }
+        self.lettings += 1;
+        let pulled = self
+            .pairs
+            .iter()
+            .filter(|pair| pair.pull(displacement) > 0.0);
+        let cracks: Vec<usize> = pulled.map(|pair| pair.crack).collect();
+        for pair in &mut self.pairs {
+            if cracks.contains(&pair.crack) {
+                (pair.let_go, pair.changes) = (true, 0);
+            }
+        }
+        Held::LetGo
     }
 
     /// Work that springs and contact took from the bodies in a step, J: mean of the springs' forces at its start and end, those of contact at its
@@ -222,6 +273,15 @@ impl<const D: usize> Pair<D> {
         displacement[self.nodes[1]] - displacement[self.nodes[0]]
     }
 
+    /// What the pair holds against a pull because it cannot decide, N; 0 if it can.
+    fn pull(&self, displacement: &[SVector<f64, D>]) -> f64 {
+        if !self.active || self.changes < UNDECIDED {
+            return 0.0;
+        }
+        let gap = self.gap + self.normal.dot(&self.way(displacement));
+        self.penalty * gap.max(0.0)
+    }
+
     /// Force on the plus field, N, and its derivative with the sign turned, N/m.
     fn answer(
         &mut self,
@@ -231,7 +291,7 @@ impl<const D: usize> Pair<D> {
         let mut force = (tie.jump + way) * -tie.stiffness;
         let mut stiffness = SMatrix::identity() * tie.stiffness;
         let gap = self.gap + n.dot(&way);
-        if gap > 0.0 && self.changes < UNDECIDED {
+        if std::mem::take(&mut self.let_go) || gap > 0.0 && self.changes < UNDECIDED {
             self.state = State::Open;
             return (force, stiffness);
         }

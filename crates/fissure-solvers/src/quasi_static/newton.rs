@@ -43,6 +43,10 @@ pub(super) fn balanced<S: Shape<D>, const D: usize>(
             trial.statistics.residuals.push(balance.error);
             let placed = iteration > 0 || held.iter().all(|change| change.amax() == 0.0);
             if placed && balance.is_balanced {
+                if trial.is_let_go(balance)? {
+                    stride.error = f64::INFINITY;
+                    continue;
+                }
                 return Ok(trial.equilibrium(balance, &loads, iteration));
             }
             trial.ended(iteration, balance.error)?;

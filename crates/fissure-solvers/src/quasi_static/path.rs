@@ -66,7 +66,7 @@ pub(super) fn follow<S: Shape<D>, const D: usize>(
         let error = balance.error;
         trial.statistics.residuals.push(error);
         // The start need not reach the goal; every later iterate does.
-        if iteration > 0 && balance.is_balanced {
+        if iteration > 0 && balance.is_balanced && !trial.is_let_go(&balance)? {
             return Ok(trial.equilibrium(&balance, &loads, iteration));
         }
         trial.ended(iteration, error)?;

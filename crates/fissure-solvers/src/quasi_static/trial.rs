@@ -8,7 +8,7 @@ use fissure_scene::{ConditionKind, NewtonStop, Scene, SweepTotals};
 use nalgebra::SVector;
 
 use super::embedded::Embedded;
-use super::faces::Faces;
+use super::faces::{Faces, Held};
 use super::settings::{Averaging, QuasiStaticSettings};
 use crate::checks::outside;
 use crate::constraints::Constraints;
@@ -306,6 +306,16 @@ impl<S: Shape<D>, const D: usize> Trial<'_, S, D> {
             stabilising_work: stabilising_work + self.hourglass_work,
             length: self.length(u),
             force_scale: balance.scale,
+        }
+    }
+
+    /// Whether faces that a balanced state holds together against a pull were let go, so that it is balanced no more.
+    pub(super) fn is_let_go(&mut self, balance: &Balance) -> Result<bool, Failure> {
+        match self.faces.held(self.displacement, balance.scale) {
+            Held::Little => Ok(false),
+            Held::LetGo => Ok(true),
+            // Which faces touch has not settled within the iterations.
+            Held::Much => Err(Failure::at(NewtonStop::Iterations, balance.error)),
         }
     }
 

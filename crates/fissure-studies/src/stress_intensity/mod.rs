@@ -13,7 +13,7 @@
 //! | `step` | `centre` between smooth walls when steps of stress from both ends reach it (explicit) | 4 σ √(c t (1 − 2ν)/π)/(1 − ν) [Freund 1990] |
 //!
 //! J is compared with (K_I² + K_II²)/E′ of the exact intensities; `contour_spread` is how far three domains differ. Of closed faces, which are loaded, K is read from
-//! their opening and sliding.
+//! their opening and sliding, J is that of these, and errors are over K and J of the open crack. `a_over_h` is of the nominal half length a, without the part of a cell.
 
 mod plates;
 mod step;
@@ -49,10 +49,12 @@ const ELASTIC: PlaneElastic = PlaneElastic {
     poisson: STEEL.poisson,
     plane_stress: false,
 };
-/// Far stress, Pa; in the cantilever the load per thickness over a.
+/// Far stress, Pa; in the cantilever, times `load`, the load per thickness over a.
 const STRESS: f64 = 1e6;
 /// Arms of the cantilever over the crack length.
 const ARM: f64 = 0.1;
+/// From where on the field around a tip is used, in cells.
+const NEAREST: f64 = 4.0;
 const BODY: &str = "plate";
 
 /// A plate with its crack, and what it should give.
@@ -118,6 +120,13 @@ impl Problem for StressIntensity {
                 "deg",
                 45.0,
                 Permitted::numbers(0.0..=80.0),
+            ),
+            Parameter::number(
+                "load",
+                "of the cantilever; with 1 its opening is 43 % of an arm's height",
+                "1",
+                0.01,
+                Permitted::above(0.0),
             ),
             Parameter::number(
                 "friction",
@@ -199,14 +208,14 @@ impl Problem for StressIntensity {
         let mut outcome = Outcome::of(scene, wall_s);
         match case.choice("case")? {
             "closed" => from_faces(&mut outcome, plate.k),
-            _ => measure(&mut outcome, plate.k, plate.radius),
+            _ => measure(&mut outcome, plate.k, plate.radius, h),
         }
         .map_err(StudyError::failed("measuring the tip"))?;
         let tip = TipFrame::of(&outcome.scene.cracks()[0], End::Last);
         outcome.values.insert("a_over_h", CRACK / h);
         outcome.values.insert("tip_x", tip.position.x);
         if case.choice("case")? == "cantilever" {
-            opening(&mut outcome, h);
+            opening(&mut outcome, h, case.number("load")?);
         }
         if case.choice("case")? == "sneddon" {
             profile(&mut outcome);
@@ -219,7 +228,12 @@ impl Problem for StressIntensity {
 }
 
 /// Intensities, J and how far J depends on the domain.
-fn measure(outcome: &mut Outcome, exact: [f64; 2], radius: f64) -> Result<(), MeasureError> {
+fn measure(
+    outcome: &mut Outcome,
+    exact: [f64; 2],
+    radius: f64,
+    h: f64,
+) -> Result<(), MeasureError> {
     let scene = &outcome.scene;
     let tip = TipFrame::of(&scene.cracks()[0], End::Last);
     let field = TipField::of(scene, BODY, &tip.position, radius, &ELASTIC, None)?;
@@ -227,8 +241,10 @@ fn measure(outcome: &mut Outcome, exact: [f64; 2], radius: f64) -> Result<(), Me
         inner: inner * radius,
         outer: outer * radius,
     };
-    let domains = [annulus(0.25, 0.7), annulus(0.4, 0.85), annulus(0.5, 1.0)];
-    let found = interaction(&field, &tip, &domains[1], &ELASTIC)?;
+    // Within four cells of the tip the field is that of the grid, if there are as many up to the domain of K.
+    let inner = (NEAREST * h / radius).clamp(0.25, 0.4);
+    let domains = [annulus(inner, 0.7), annulus(inner, 0.85), annulus(0.5, 1.0)];
+    let found = interaction(&field, &tip, &annulus(0.4, 0.85), &ELASTIC)?;
     let j = contours(&field, &tip, &domains)?;
     let scale = exact[0].hypot(exact[1]);
     let exact_j = ELASTIC.energy_release(exact[0], exact[1]);
@@ -248,7 +264,7 @@ fn measure(outcome: &mut Outcome, exact: [f64; 2], radius: f64) -> Result<(), Me
 }
 
 /// Error of the cantilever's opening at its loaded end.
-fn opening(outcome: &mut Outcome, h: f64) {
+fn opening(outcome: &mut Outcome, h: f64, load: f64) {
     let particles = outcome.scene.bodies()[0].particles();
     let height = ARM * CRACK;
     let (mut above, mut below) = (Vec::new(), Vec::new());
@@ -264,8 +280,8 @@ fn opening(outcome: &mut Outcome, h: f64) {
     let mean = |places: &[f64]| places.iter().sum::<f64>() / places.len() as f64;
     let open = mean(&above) - mean(&below) - height;
     let length = tip_of(&outcome.scene) + 0.67 * height - 0.25 * h;
-    let exact =
-        8.0 * STRESS * CRACK * length.powi(3) / (ELASTIC.effective_modulus() * height.powi(3));
+    let exact = 8.0 * load * STRESS * CRACK * length.powi(3)
+        / (ELASTIC.effective_modulus() * height.powi(3));
     outcome.errors.insert("opening", (open / exact - 1.0).abs());
 }
 
@@ -287,6 +303,10 @@ fn from_faces(outcome: &mut Outcome, exact: [f64; 2]) -> Result<(), MeasureError
         outcome.values.insert(name, found);
         outcome.values.insert(format!("{name}_exact"), exact);
     }
+    // Closed faces that stick have no J to be compared with: over that of the open crack.
+    let [found, exact] = [[found.k1, found.k2], exact].map(|k| ELASTIC.energy_release(k[0], k[1]));
+    let scale = ELASTIC.energy_release(scale, 0.0);
+    outcome.errors.insert("j", ((found - exact) / scale).abs());
     Ok(())
 }
 

@@ -23,7 +23,10 @@ pub(super) fn plate(
             let angle = case.number("angle")?.to_radians();
             Ok(closed(a, angle, case.number("friction")?, h, load)?)
         }
-        "cantilever" => Ok(cantilever(a, h, load)?),
+        "cantilever" => {
+            let share = case.number("load")?;
+            Ok(cantilever(a, h, share, load)?)
+        }
         "centre-square" => Ok(square_of_nafems(true, h, load)?),
         "edge-square" => Ok(square_of_nafems(false, h, load)?),
         other => Ok(upright(other == "centre", a, h, load)?),
@@ -182,16 +185,18 @@ pub(super) fn pull(
     Ok(())
 }
 
-/// Two arms, pulled apart at their ends.
+/// Two arms, pulled apart at their ends by a share of the stress times a.
 fn cantilever(
     a: f64,
     h: f64,
+    share: f64,
     load: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static,
 ) -> Result<Plate, SceneError> {
     let height = ARM * CRACK;
     let (low, high) = ([0.0, -height], [1.6 * CRACK, height]);
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
-    let force = move |t: f64| Vector2::new(0.0, STRESS * CRACK * load(t));
+    let most = share * STRESS * CRACK;
+    let force = move |t: f64| Vector2::new(0.0, most * load(t));
     scene
         .fill(BODY, STEEL, &Block::new(low, high), &Spacing(0.5 * h))?
         .crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())?
@@ -204,8 +209,7 @@ fn cantilever(
         )?;
     // The loads act in the middle of the first column.
     let arm = a - 0.25 * h + 0.67 * height;
-    let release =
-        12.0 * (STRESS * CRACK * arm).powi(2) / (ELASTIC.effective_modulus() * height.powi(3));
+    let release = 12.0 * (most * arm).powi(2) / (ELASTIC.effective_modulus() * height.powi(3));
     Ok(Plate {
         scene,
         low,

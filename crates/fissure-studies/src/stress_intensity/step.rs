@@ -9,7 +9,9 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use fissure::diagnostics::MeasureError;
-use fissure::diagnostics::fracture::{Annulus, Rates, TipField, TipFrame, interaction};
+use fissure::diagnostics::fracture::{
+    Annulus, Contours, Intensity, Rates, TipField, TipFrame, contours, interaction,
+};
 use fissure::prelude::*;
 use fissure_study::{Parameters, StudyError};
 
@@ -20,6 +22,8 @@ use crate::problem::{History, Outcome};
 
 /// Between which ways of the wave past the crack K is compared, over its length: later it is back from the other tip.
 const WINDOW: [f64; 2] = [0.2, 1.7];
+/// Radii of the domains of J over that of K's.
+const WIDER: [f64; 3] = [1.0, 1.4, 1.75];
 /// Questions over the window.
 const QUESTIONS: f64 = 30.0;
 
@@ -46,7 +50,7 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
     let exact =
         |t: f64| 4.0 * STRESS / (1.0 - nu) * (wave * (t - met) * (1.0 - 2.0 * nu) / PI).sqrt();
     let (mut rates, start) = (Rates::default(), Instant::now());
-    let (mut asked, mut square, mut count) = (0.0, 0.0, 0.0);
+    let (mut asked, mut errors) = (0.0, Errors::default());
     let mut found = (f64::NAN, f64::NAN);
     let mut samples = Vec::new();
     while scene.time() < last {
@@ -58,23 +62,21 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
         if due {
             asked = scene.time() + (last - first) / QUESTIONS;
             let time = 0.5 * (before + scene.time());
-            let k1 = intensity(&mut rates, &scene, 0.4 * CRACK)
+            let now = Measured::of(&mut rates, &scene, 0.4 * CRACK)
                 .map_err(StudyError::failed("measuring the tip"))?;
-            found = (k1, exact(time));
-            samples.push([(time - met) * wave / a, k1, exact(time)]);
-            square += (k1 - exact(time)).powi(2);
-            count += 1.0;
+            samples.push([(time - met) * wave / a, now.k.k1, exact(time)]);
+            errors.add(&now, exact(time));
+            found = (now.k.k1, exact(time));
         }
         rates
             .look(&scene, BODY)
             .map_err(StudyError::failed("looking at the plate"))?;
     }
     let mut outcome = Outcome::of(scene, start.elapsed().as_secs_f64());
-    let scale = exact(last);
-    outcome.errors.insert("k1", (square / count).sqrt() / scale);
+    errors.over(exact(last), &mut outcome);
     outcome.values.insert("k1", found.0);
     outcome.values.insert("k1_exact", found.1);
-    outcome.values.insert("a_over_h", a / h);
+    outcome.values.insert("a_over_h", CRACK / h);
     outcome.history = Some(History {
         x_label: "way of the wave past the crack over its length [1]",
         y_label: "K_I [Pa √m]",
@@ -86,15 +88,63 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
     Ok(outcome)
 }
 
-fn intensity(rates: &mut Rates, scene: &Scene<2>, radius: f64) -> Result<f64, MeasureError> {
-    rates.look(scene, BODY)?;
-    let tip = TipFrame::of(&scene.cracks()[0], End::Last);
-    let field = TipField::of(scene, BODY, &tip.position, radius, &ELASTIC, Some(rates))?;
-    let annulus = Annulus {
-        inner: 0.4 * radius,
-        outer: radius,
-    };
-    Ok(interaction(&field, &tip, &annulus, &ELASTIC)?.k1)
+/// Intensities, and J over three domains, with inertia.
+struct Measured {
+    k: Intensity,
+    j: Contours,
+}
+
+impl Measured {
+    /// Intensities over domains of this radius, m, J over wider ones too.
+    fn of(rates: &mut Rates, scene: &Scene<2>, radius: f64) -> Result<Self, MeasureError> {
+        rates.look(scene, BODY)?;
+        let tip = TipFrame::of(&scene.cracks()[0], End::Last);
+        let most = WIDER[WIDER.len() - 1] * radius;
+        let field = TipField::of(scene, BODY, &tip.position, most, &ELASTIC, Some(rates))?;
+        let domains = WIDER.map(|times| Annulus {
+            inner: 0.4 * times * radius,
+            outer: times * radius,
+        });
+        Ok(Self {
+            k: interaction(&field, &tip, &domains[0], &ELASTIC)?,
+            j: contours(&field, &tip, &domains)?,
+        })
+    }
+}
+
+/// Sums of squares over the window.
+#[derive(Default)]
+struct Errors {
+    k1: f64,
+    k2: f64,
+    j: f64,
+    spread: f64,
+    count: f64,
+}
+
+impl Errors {
+    fn add(&mut self, now: &Measured, exact: f64) {
+        self.k1 += (now.k.k1 - exact).powi(2);
+        self.k2 += now.k.k2.powi(2);
+        self.j += (now.j.mean - ELASTIC.energy_release(exact, 0.0)).powi(2);
+        self.spread += (now.j.spread * now.j.mean).powi(2);
+        self.count += 1.0;
+    }
+
+    /// Roots of the means, over the last K and J.
+    fn over(&self, last: f64, outcome: &mut Outcome) {
+        let root = |square: f64, scale: f64| (square / self.count).sqrt() / scale;
+        let release = ELASTIC.energy_release(last, 0.0);
+        for (name, square, scale) in [
+            ("k1", self.k1, last),
+            ("k2", self.k2, last),
+            ("j", self.j, release),
+        ] {
+            outcome.errors.insert(name, root(square, scale));
+        }
+        let spread = root(self.spread, release);
+        outcome.values.insert("contour_spread", spread);
+    }
 }
 
 fn scene(a: f64, width: f64, height: f64, h: f64) -> Result<Scene<2>, SceneError> {

@@ -2,14 +2,14 @@
 
 use crate::fake::Pull;
 use fissure_study::{
-    Overrides, Parameter, ParameterError, Parameters, Permitted, Report, Study, StudyError,
+    Form, Overrides, Parameter, ParameterError, Parameters, Permitted, Report, Study, StudyError,
     combinations,
 };
 
-fn cases(settings: &[&str], quick: bool) -> Vec<Parameters> {
+fn cases(settings: &[&str], form: Form) -> Vec<Parameters> {
     let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
     let overrides = Overrides::from_settings(Pull.name(), &Pull.parameters(), &settings).unwrap();
-    combinations(&Pull, &overrides, quick).unwrap()
+    combinations(&Pull, &overrides, form).unwrap()
 }
 
 fn shape_h_solver(cases: &[Parameters]) -> Vec<String> {
@@ -29,7 +29,7 @@ fn shape_h_solver(cases: &[Parameters]) -> Vec<String> {
 #[test]
 fn default_cases_expand_in_order() {
     assert_eq!(
-        shape_h_solver(&cases(&[], false)),
+        shape_h_solver(&cases(&[], Form::Standard)),
         [
             "linear 0.02 explicit",
             "linear 0.02 implicit",
@@ -48,7 +48,7 @@ fn default_cases_expand_in_order() {
 #[test]
 fn one_setting_replaces_the_value_in_every_case() {
     assert_eq!(
-        shape_h_solver(&cases(&["h=0.005"], false)),
+        shape_h_solver(&cases(&["h=0.005"], Form::Standard)),
         [
             "linear 0.005 explicit",
             "linear 0.005 implicit",
@@ -59,7 +59,7 @@ fn one_setting_replaces_the_value_in_every_case() {
 
 #[test]
 fn cases_that_become_equal_run_once() {
-    let cases = cases(&["shape=quadratic", "solver=explicit"], false);
+    let cases = cases(&["shape=quadratic", "solver=explicit"], Form::Standard);
     assert_eq!(
         shape_h_solver(&cases),
         [
@@ -74,7 +74,7 @@ fn cases_that_become_equal_run_once() {
 
 #[test]
 fn lists_multiply_the_cases() {
-    let cases = cases(&["angle=0,45", "solver=explicit"], false);
+    let cases = cases(&["angle=0,45", "solver=explicit"], Form::Standard);
     assert_eq!(cases.len(), 2 * (4 + 2));
     let rotated = |case: &&Parameters| case.number("angle").unwrap() == 45.0;
     assert_eq!(cases.iter().filter(rotated).count(), 6);
@@ -92,7 +92,7 @@ fn a_parameter_that_names_the_case_chooses_among_the_default_cases() {
         Overrides::from_settings("named", &Named.parameters(), &list).unwrap()
     };
     let run = |list: &[&str]| -> Vec<String> {
-        let cases = combinations(&Named, &settings(list), false).unwrap();
+        let cases = combinations(&Named, &settings(list), Form::Standard).unwrap();
         cases.iter().map(ToString::to_string).collect()
     };
     let (short, long) = ("case=short length=1", "case=long length=9");
@@ -138,15 +138,15 @@ impl Study for Named {
 
 #[test]
 fn equal_values_written_differently_are_one() {
-    let cases = cases(&["h=0.01,1e-2, 0.010", "angle=0,-0"], true);
+    let cases = cases(&["h=0.01,1e-2, 0.010", "angle=0,-0"], Form::Quick);
     assert_eq!(cases.len(), 1);
     assert_eq!(cases[0].label(), "default");
 }
 
 #[test]
 fn quick_is_smaller_and_can_be_widened() {
-    assert_eq!(cases(&[], true).len(), 1);
-    let cases = cases(&["h=0.1,0.2", "angle=10,20,30"], true);
+    assert_eq!(cases(&[], Form::Quick).len(), 1);
+    let cases = cases(&["h=0.1,0.2", "angle=10,20,30"], Form::Quick);
     assert_eq!(cases.len(), 6);
     assert_eq!(cases[0].label(), "h=0.1 angle=10");
     assert_eq!(cases[0].label_without(&["h"]), "angle=10");
@@ -154,7 +154,7 @@ fn quick_is_smaller_and_can_be_widened() {
 
 #[test]
 fn parameters_are_typed() {
-    let case = &cases(&["threads=4"], true)[0];
+    let case = &cases(&["threads=4"], Form::Quick)[0];
     assert_eq!(case.count("threads").unwrap(), 4);
     assert_eq!(case.size("threads").unwrap(), 4);
     assert_eq!(
@@ -197,7 +197,7 @@ impl Study for Misdefined {
 
 fn definition_error(parameters: Vec<Parameter>, case: Overrides) -> ParameterError {
     let study = Misdefined { parameters, case };
-    match combinations(&study, &Overrides::new(), false) {
+    match combinations(&study, &Overrides::new(), Form::Standard) {
         Err(StudyError::Definition(error)) => error,
         other => panic!("{other:?}"),
     }

@@ -117,6 +117,20 @@ fn a_refused_combination_is_bad_input_with_its_cause() {
 }
 
 #[test]
+fn the_full_form_is_refused_by_a_study_without_one() {
+    for rest in ["", " --params"] {
+        let outcome = obey(&format!("pull-bar --full{rest}"));
+        assert_eq!(outcome.code, 2);
+        assert!(outcome.messages.ends_with(
+            "caused by: study 'pull-bar' has no full form: its default run is all there is; --set refines it\n"
+        ));
+    }
+    assert_eq!(obey("pull-bar --full --quick").code, 2);
+    let full = obey("broken --params --full");
+    assert!(full.output.ends_with("the full run has 3 combinations\n"));
+}
+
+#[test]
 fn a_failed_study_tells_the_whole_chain() {
     let outcome = obey("broken --json");
     assert_eq!(outcome.code, 1);

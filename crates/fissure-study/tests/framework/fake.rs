@@ -130,6 +130,10 @@ impl Study for Broken {
         vec![Overrides::new()]
     }
 
+    fn full_cases(&self, _settings: &Overrides) -> Option<Vec<Overrides>> {
+        Some(vec![Overrides::new().sweep("young", [1e11, 2e11, 3e11])])
+    }
+
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
         for case in cases {
             report.row(

@@ -92,11 +92,13 @@ pub(super) fn row_of(
     row.values = Measures::new()
         .with("onset_us", 1e6 * onset)
         .with("speed_m_s", speed)
-        .with("length_mm", 1e3 * length)
-        .with(
-            "dissipated_per_area",
-            scene.energy().dissipated / ((length - plate.crack) * THICKNESS),
-        );
+        .with("length_mm", 1e3 * length);
+    // A line dissipates nothing in the body: what its tip released went into waves.
+    if !explicit {
+        let area = (length - plate.crack) * THICKNESS;
+        let spent = scene.energy().dissipated / area;
+        row.values.insert("dissipated_per_area", spent);
+    }
     row.values = energies(row.values, scene);
     Ok(row)
 }

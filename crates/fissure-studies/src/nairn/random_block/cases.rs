@@ -85,3 +85,10 @@ pub(super) fn default_cases(_settings: &Overrides, quick: bool) -> Vec<Overrides
         all
     }]
 }
+
+/// The document's four resolutions and its number of samples.
+pub(super) fn full_case() -> Overrides {
+    Overrides::new()
+        .sweep("h", [0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3])
+        .set("samples", 200_u64)
+}

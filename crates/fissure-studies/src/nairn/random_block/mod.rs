@@ -30,6 +30,10 @@ impl Study for RandomBlock {
         cases::default_cases(settings, quick)
     }
 
+    fn full_cases(&self, _settings: &Overrides) -> Option<Vec<Overrides>> {
+        Some(vec![cases::full_case()])
+    }
+
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
         run::run(cases, report)
     }
