@@ -3,6 +3,8 @@
 
 use fissure_materials::{MaterialError, Softening, softening};
 
+use crate::parameter::Values;
+
 /// Any curve of the library but the linear one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Curve {
@@ -11,6 +13,39 @@ pub(crate) enum Curve {
     Exponential(softening::Exponential),
     CubicStep(softening::CubicStep),
     DoubleExponential(softening::DoubleExponential),
+}
+
+impl Curve {
+    pub fn bilinear(values: &Values<'_>) -> Self {
+        Self::Bilinear(softening::Bilinear {
+            kink_opening: values.number("kink_opening"),
+            kink_ratio: values.number("kink_ratio"),
+        })
+    }
+
+    pub fn power_law(values: &Values<'_>) -> Self {
+        let exponent = values.number("exponent");
+        Self::PowerLaw(softening::PowerLaw { exponent })
+    }
+
+    pub fn double_exponential(values: &Values<'_>) -> Self {
+        Self::DoubleExponential(softening::DoubleExponential {
+            decay_ratio: values.number("decay_ratio"),
+            weight: values.number("weight"),
+        })
+    }
+
+    /// That of the choice `curve`; `None` for the linear one.
+    pub fn chosen(values: &Values<'_>) -> Option<Self> {
+        match values.choice("curve") {
+            "bilinear" => Some(Self::bilinear(values)),
+            "power-law" => Some(Self::power_law(values)),
+            "exponential" => Some(Self::Exponential(softening::Exponential)),
+            "cubic-step" => Some(Self::CubicStep(softening::CubicStep)),
+            "double-exponential" => Some(Self::double_exponential(values)),
+            _ => None,
+        }
+    }
 }
 
 macro_rules! of_the_curve {

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use fissure_materials::contract::{Random, tangent_error};
+use fissure_materials::contract::{Random, is_difference_quotient, tangent_error};
 use fissure_materials::*;
 use fissure_tensor::{Matrix3, Sym};
 
@@ -39,6 +39,8 @@ pub struct Fuzzed {
     pub tangent_error: f64,
     /// Tangents compared.
     pub tangents: u64,
+    /// Of these such as were difference quotients themselves: compared were two quotients then.
+    pub numerical_tangents: u64,
     /// The first update that did what must not happen, in words.
     pub first: Option<String>,
 }
@@ -59,12 +61,22 @@ impl Default for Fuzzed {
             most_cracks: 0,
             tangent_error: f64::NAN,
             tangents: 0,
+            numerical_tangents: 0,
             first: None,
         }
     }
 }
 
 impl Fuzzed {
+    /// What the tangents compared were: `analytic`, `numerical`, or `both`, analytic but where no closed form is known.
+    pub fn tangent(&self) -> &'static str {
+        match self.numerical_tangents {
+            0 => "analytic",
+            all if all == self.tangents => "numerical",
+            _ => "both",
+        }
+    }
+
     /// Keeps the first offence.
     fn tell<S: Debug>(&mut self, what: &str, walk: &Walk, increment: &Increment, old: &S) {
         let number = self.updates;
@@ -87,7 +99,7 @@ fn is_too_thin(error: &MaterialError) -> bool {
 const TANGENT_EVERY: u64 = 256;
 
 /// Difference steps of tangents, over the strain at failure; the best counts.
-const TANGENT_STEPS: [f64; 3] = [1e-3, 1e-4, 1e-5];
+const TANGENT_STEPS: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// What a fuzz knows of its law.
 struct Target<'a, S> {
@@ -228,17 +240,19 @@ impl<S: Subject> Target<'_, S> {
             opening / increment.band.max_width()
         });
         let failure = (natural + opening).min(0.1);
-        let [a, b, c] = TANGENT_STEPS.map(|step| step * failure);
+        let [a, b, c, d] = TANGENT_STEPS.map(|step| step * failure);
         // A failed crack that follows the strain turns over strains of its size, and where the last step ended cracks have
         // their kinks: of two at once no quotient across them is the derivative.
         let near = 1e-2 * strain.min(failure);
         let within = 0.1 * (increment.f_new - increment.f_old).norm().min(failure);
         // A plane across a principal direction turns over strains of the size of what that is ahead of the next.
         let apart = (1e-2 * (first - second).min(second - third)).clamp(1e-6 * c, a);
-        let steps = [a, b, c, near, within, apart];
+        let steps = [a, b, c, d, near, within, apart];
         let law = self.subject.law();
         if let Ok(error) = tangent_error(law, increment, old, self.stiffness, &steps) {
             counts.tangents += 1;
+            let numerical = is_difference_quotient(law, increment, old);
+            counts.numerical_tangents += u64::from(numerical == Ok(true));
             counts.tangent_error = counts.tangent_error.max(error);
         }
     }

@@ -32,6 +32,12 @@ pub struct LawParameter {
     pub permitted: Permitted,
 }
 
+/// What a parameter is set to for which no value is published: there is no default.
+pub const NONE: &str = "none";
+
+/// Any number.
+const ANY: Permitted = Permitted::Numbers(Bound::Unbounded, Bound::Unbounded);
+
 /// Numbers above zero.
 pub const POSITIVE: Permitted = Permitted::Numbers(Bound::Excluded(0.0), Bound::Unbounded);
 
@@ -73,8 +79,23 @@ impl LawParameter {
         default: f64,
     ) -> Self {
         Self {
-            permitted: Permitted::Numbers(Bound::Unbounded, Bound::Unbounded),
+            permitted: ANY,
             ..Self::positive(name, meaning, unit, default)
+        }
+    }
+
+    /// A number without a published value, and so without a default: it has to be given where it is used.
+    pub const fn unpublished(
+        name: &'static str,
+        meaning: &'static str,
+        unit: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            meaning,
+            unit,
+            default: Setting::Choice(NONE),
+            permitted: Permitted::WordOr(NONE, &ANY),
         }
     }
 
@@ -184,9 +205,10 @@ impl<'a> Values<'a> {
     /// Every parameter with its value and unit, as text.
     pub fn told(&self) -> String {
         let told = self.entry.parameters.iter().map(|parameter| {
+            let number = self.number(parameter.name);
             let value = match parameter.default {
-                Setting::Number(_) => Value::Number(self.number(parameter.name)),
-                Setting::Choice(_) => Value::from(self.choice(parameter.name)),
+                Setting::Choice(_) if number.is_nan() => Value::from(self.choice(parameter.name)),
+                _ => Value::Number(number),
             };
             let unit = match parameter.unit {
                 "" | "1" => String::new(),

@@ -63,6 +63,13 @@ pub trait Cracking: Material {
         Some(stress.normal_component(normal) / self.strength(scale) - 1.0)
     }
 
+    /// The failure function of a crack, with the strength that it has left: zero while it softens.
+    ///
+    /// The default is that of opening, normal traction over strength less [`Crack::strength_ratio`].
+    fn failure_of(&self, stress: &Sym, crack: &Crack, scale: &Scale) -> f64 {
+        stress.normal_component(&crack.normal) / self.strength(scale) - crack.strength_ratio
+    }
+
     /// Whether the flow follows from the failure function, so that the tangent is symmetric while
     /// the crack's direction and band are fixed.
     fn associated(&self) -> bool {

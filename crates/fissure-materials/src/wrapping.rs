@@ -45,6 +45,10 @@ macro_rules! hand_on_cracking {
             self.$law.driving_stress(f, cauchy)
         }
 
+        fn failure_of(&self, stress: &Sym, crack: &$crate::Crack, scale: &Scale) -> f64 {
+            self.$law.failure_of(stress, crack, scale)
+        }
+
         fn associated(&self) -> bool {
             self.$law.associated()
         }

@@ -325,3 +325,36 @@ fn a_rotated_crack_over_a_band_that_is_too_wide_is_refused() {
     let refused = rankine.update(&along.with_end(out_of_plane), &virgin);
     assert!(matches!(refused, Err(MaterialError::Band { .. })));
 }
+
+/// A law that breaks a property is put to all the others when that is said, and to none that does not exist.
+#[test]
+fn what_is_said_not_to_hold_does_not_hide_the_rest() {
+    let law = broken::WrongFractureEnergy(decohesive(Normal::Rankine));
+    let contract = Contract {
+        samples: 40,
+        step_error_steps: 20,
+        not_held: &["P8", "P14"],
+        ..Contract::default()
+    };
+    let summary = contract
+        .check_cracking(&law)
+        .unwrap_or_else(|v| panic!("{v}"));
+    let broken: Vec<_> = summary.not_held.iter().map(|v| v.property).collect();
+    assert_eq!(broken, ["P8 fracture energy", "P14 crack strain"]);
+    assert!(
+        summary
+            .tally("P8")
+            .is_some_and(|tally| tally.note.is_some() && tally.worst > 1.0)
+    );
+    assert!(
+        summary
+            .tally("P15")
+            .is_some_and(|tally| tally.exercised > 0)
+    );
+    let unknown = Contract {
+        not_held: &["P99"],
+        ..contract
+    };
+    let violation = unknown.check_cracking(&law).expect_err("there is no P99");
+    assert!(violation.explanation.contains("P99"), "{violation}");
+}

@@ -55,6 +55,14 @@ fn nothing_that_must_not_happens_in_any_law() {
         assert!(refused <= 0.01, "{row}");
         let name = row["law"].as_str().unwrap();
         assert!(number(row, "tangent_error_max") <= 1e-5, "{row}");
+        let numerical = number(row, "tangents_numerical");
+        let told = match row["tangent"].as_str().unwrap() {
+            "analytic" => numerical == 0.0,
+            "numerical" => numerical == number(row, "tangents"),
+            "both" => numerical > 0.0 && numerical < number(row, "tangents"),
+            _ => false,
+        };
+        assert!(told, "{row}");
         if row["energy_error_max"].is_number() {
             assert!(number(row, "energy_error_max") <= 1e-6, "{row}");
         }
@@ -158,6 +166,52 @@ fn a_law_refuses_what_it_does_not_have_and_what_is_out_of_range() {
         code == 1 && rows.is_empty() && messages.contains("limit"),
         "{messages}"
     );
+}
+
+/// What no source gives has no default: the concrete does not depend on the rate, or all four are given.
+#[test]
+fn unpublished_parameters_are_all_given_or_none() {
+    let concrete = ["point", "--set", "law=viscous-damage"];
+    assert_eq!(run(&concrete).0, 0);
+    let some = ["--set", "lag=5e-5", "--set", "rate_exponent=0.8"];
+    let (code, _, messages) = run(&[&concrete[..], &some].concat());
+    assert!(
+        code == 2 && messages.contains("rate_curvature"),
+        "{messages}"
+    );
+    let rest = [
+        "--set",
+        "rate_curvature=0",
+        "--set",
+        "relaxation_exponent=1",
+    ];
+    let (code, rows, messages) = run(&[&concrete[..], &some, &rest].concat());
+    assert!(code == 0 && !rows.is_empty(), "{messages}");
+}
+
+/// Every parameter that a choice brings in reaches the law.
+#[test]
+fn choices_of_laws_reach_them() {
+    let refused = |arguments: &[&str], named: &str| {
+        let (code, _, messages) = run(&[&["point"], arguments].concat());
+        assert!(code == 2 && messages.contains(named), "{messages}");
+    };
+    let geological = ["--set", "law=geological-flow", "--set"];
+    refused(
+        &[&geological[..], &["biaxial_strength=21e6"]].concat(),
+        "biaxial",
+    );
+    refused(
+        &[&geological[..], &["confined_shear_strength=1e6"]].concat(),
+        "confined",
+    );
+    let damage = ["--set", "law=anisotropic-damage", "--set"];
+    let power = ["curve=power-law", "--set", "exponent=0.5"];
+    refused(&[&damage[..], &power].concat(), "exponent");
+    for choice in ["mixed=uncoupled", "curve=cubic-step", "shear_exponent=2"] {
+        let (code, _, messages) = run(&[&["point"], &damage[..], &[choice]].concat());
+        assert_eq!(code, 0, "{messages}");
+    }
 }
 
 #[test]

@@ -8,7 +8,11 @@ use super::elastic::{
     POISSON_XY, POISSON_XZ, POISSON_YZ, SHEAR_XY, SHEAR_XZ, SHEAR_YZ, YOUNG_X, YOUNG_Y, YOUNG_Z,
     orthotropic,
 };
-use super::parameters::{FRICTION, density, isotropic, poisson, strength, toughness, young};
+use super::parameters::{
+    CURVE, DECAY_RATIO, EXPONENT, FRICTION, KINK_OPENING, KINK_RATIO, WEIGHT, density, isotropic,
+    poisson, shear_strength, strength, toughness, young,
+};
+use crate::curve::Curve;
 use crate::parameter::{LawParameter, Values};
 use crate::subject::cracking;
 
@@ -22,8 +26,7 @@ const PARAMETERS: &[LawParameter] = &[
     SHEAR_TOUGHNESS,
 ];
 
-const SHEAR_STRENGTH: LawParameter =
-    LawParameter::positive("shear_strength", "strength in sliding", "Pa", 20e6);
+const SHEAR_STRENGTH: LawParameter = shear_strength(20e6);
 
 const SHEAR_TOUGHNESS: LawParameter = LawParameter::positive(
     "shear_toughness",
@@ -44,14 +47,36 @@ pub(super) const ANISOTROPIC: Entry = Entry {
         SHEAR_STRENGTH,
         SHEAR_TOUGHNESS,
         FRICTION,
+        CURVE,
+        KINK_OPENING,
+        KINK_RATIO,
+        EXPONENT,
+        DECAY_RATIO,
+        WEIGHT,
+        LawParameter::choice(
+            "mixed",
+            "opening and sliding at once: one failure for both, or each softens to its own end",
+            "coupled",
+            &["coupled", "uncoupled"],
+        ),
+        LawParameter::positive(
+            "opening_exponent",
+            "of G_I over its toughness in the coupled failure",
+            "1",
+            1.0,
+        ),
+        LawParameter::positive(
+            "shear_exponent",
+            "of G_II over its toughness in the coupled failure",
+            "1",
+            1.0,
+        ),
     ],
     plane_stress: true,
-    build: |values, space| {
-        let law = AnisotropicDamage {
-            friction: values.number("friction"),
-            ..anisotropic(values, Onset::TensionShear)
-        };
-        cracking(law, space)
+    build: |values, space| match Curve::chosen(values) {
+        // Known when it is compiled, since it is the faster one.
+        None => cracking(whole(values, softening::Linear), space),
+        Some(curve) => cracking(whole(values, curve), space),
     },
 };
 
@@ -139,7 +164,7 @@ pub(super) const ORTHOTROPIC: Entry = Entry {
         SHEAR_YZ,
         strength(3e6),
         toughness(1e3),
-        LawParameter::positive("shear_strength", "strength in sliding", "Pa", 2e6),
+        shear_strength(2e6),
         LawParameter::positive(
             "shear_toughness",
             "fracture energy in sliding",
@@ -170,12 +195,36 @@ pub(super) const ORTHOTROPIC: Entry = Entry {
     },
 };
 
+/// With everything that can be chosen.
+fn whole<S: Softening>(values: &Values<'_>, curve: S) -> AnisotropicDamage<S, S> {
+    let mixed = match values.choice("mixed") {
+        "uncoupled" => MixedMode::Uncoupled,
+        _ => MixedMode::Coupled {
+            opening_exponent: values.number("opening_exponent"),
+            shear_exponent: values.number("shear_exponent"),
+        },
+    };
+    AnisotropicDamage {
+        friction: values.number("friction"),
+        mixed,
+        ..softening_as(values, Onset::TensionShear, curve)
+    }
+}
+
 fn anisotropic(values: &Values<'_>, onset: Onset) -> AnisotropicDamage {
+    softening_as(values, onset, softening::Linear)
+}
+
+fn softening_as<S: Softening>(
+    values: &Values<'_>,
+    onset: Onset,
+    softening: S,
+) -> AnisotropicDamage<S, S> {
     let elastic = isotropic(values);
     let mode = |strength: &str, toughness: &str| Mode {
         strength: values.number(strength),
         toughness: values.number(toughness),
-        softening: softening::Linear,
+        softening,
     };
     let opening = mode("strength", "toughness");
     let shear = mode("shear_strength", "shear_toughness");

@@ -9,7 +9,10 @@ use fissure_tensor::Vector3;
 
 use super::Entry;
 use super::elastic::EXPANSION;
-use super::parameters::{FRICTION, density, isotropic, poisson, strength, toughness, young};
+use super::parameters::{
+    DECAY_RATIO, EXPONENT, FRICTION, KINK_OPENING, KINK_RATIO, WEIGHT, density, isotropic, poisson,
+    shear_strength, strength, toughness, young,
+};
 use crate::curve::Curve;
 use crate::parameter::{LawParameter, Values};
 use crate::subject::{cracking, lowered};
@@ -40,47 +43,17 @@ pub(super) const LINEAR: Entry = Entry {
 pub(super) const BILINEAR: Entry = Entry {
     name: "decohesive-bilinear",
     about: "the same with bilinear softening",
-    parameters: parameters!(
-        LawParameter::positive(
-            "kink_opening",
-            "opening of the kink over toughness / strength",
-            "1",
-            0.8
-        ),
-        LawParameter::positive(
-            "kink_ratio",
-            "traction at the kink over strength",
-            "1",
-            1.0 / 3.0
-        )
-    ),
+    parameters: parameters!(KINK_OPENING, KINK_RATIO),
     plane_stress: true,
-    build: |values, space| {
-        let curve = softening::Bilinear {
-            kink_opening: values.number("kink_opening"),
-            kink_ratio: values.number("kink_ratio"),
-        };
-        cracking(decohesive(values, Curve::Bilinear(curve)), space)
-    },
+    build: |values, space| cracking(decohesive(values, Curve::bilinear(values)), space),
 };
 
 pub(super) const POWER_LAW: Entry = Entry {
     name: "decohesive-power-law",
     about: "the same with a power of the opening",
-    parameters: parameters!(LawParameter::positive(
-        "exponent",
-        "of the softening curve; at least 1",
-        "1",
-        2.0
-    )),
+    parameters: parameters!(EXPONENT),
     plane_stress: true,
-    build: |values, space| {
-        let exponent = values.number("exponent");
-        cracking(
-            decohesive(values, Curve::PowerLaw(softening::PowerLaw { exponent })),
-            space,
-        )
-    },
+    build: |values, space| cracking(decohesive(values, Curve::power_law(values)), space),
 };
 
 pub(super) const EXPONENTIAL: Entry = Entry {
@@ -112,28 +85,9 @@ pub(super) const CUBIC_STEP: Entry = Entry {
 pub(super) const DOUBLE_EXPONENTIAL: Entry = Entry {
     name: "decohesive-double-exponential",
     about: "the same with two exponentials",
-    parameters: parameters!(
-        LawParameter::positive(
-            "decay_ratio",
-            "of the second exponential to the first; above 1",
-            "1",
-            4.0
-        ),
-        LawParameter::number(
-            "weight",
-            "of the second exponential, taken away from the first",
-            "1",
-            0.2
-        )
-    ),
+    parameters: parameters!(DECAY_RATIO, WEIGHT),
     plane_stress: true,
-    build: |values, space| {
-        let curve = softening::DoubleExponential {
-            decay_ratio: values.number("decay_ratio"),
-            weight: values.number("weight"),
-        };
-        cracking(decohesive(values, Curve::DoubleExponential(curve)), space)
-    },
+    build: |values, space| cracking(decohesive(values, Curve::double_exponential(values)), space),
 };
 
 pub(super) const LOWERED: Entry = Entry {
@@ -204,6 +158,50 @@ const GEOLOGICAL_PARAMETERS: &[LawParameter] = &[
     poisson(0.18),
     strength(2.7e6),
     toughness(61.35),
+    shear_strength(Geological::CONCRETE.shear_strength),
+    LawParameter::positive(
+        "confined_shear_strength",
+        "strength in sliding under large pressure; above shear_strength",
+        "Pa",
+        Geological::CONCRETE.confined_shear_strength,
+    ),
+    LawParameter::positive(
+        "compressive_strength",
+        "uniaxial compressive strength f'_c",
+        "Pa",
+        Geological::CONCRETE.compressive_strength,
+    ),
+    LawParameter::positive(
+        "biaxial_strength",
+        "biaxial compressive strength f'_b, above half of f'_c; the usual one is 1.16 f'_c",
+        "Pa",
+        Geological::CONCRETE.biaxial_strength,
+    ),
+    LawParameter::not_negative(
+        "normal_coupling",
+        "C_n, of the normal traction",
+        "1",
+        Geological::CONCRETE.normal_coupling,
+    ),
+    LawParameter::not_negative(
+        "lateral_coupling",
+        "C_s, of the stress along the plane",
+        "1",
+        Geological::CONCRETE.lateral_coupling,
+    ),
+    LawParameter::not_negative(
+        "shape_coupling",
+        "C_psi, of the shape of the surface",
+        "1",
+        Geological::CONCRETE.shape_coupling,
+    ),
+    LawParameter::choice(
+        "after_failure",
+        "shear of a failed plane: on the surface that is left, or by friction",
+        "surface",
+        &["surface", "friction"],
+    ),
+    FRICTION,
 ];
 
 const MODE_ONE: &[LawParameter] = &[
@@ -280,11 +278,20 @@ fn geological<const N: usize>(
         decohesion: GeologicalFlow {
             surface: Geological {
                 strength: values.number("strength"),
-                ..Geological::CONCRETE
+                shear_strength: values.number("shear_strength"),
+                confined_shear_strength: values.number("confined_shear_strength"),
+                compressive_strength: values.number("compressive_strength"),
+                biaxial_strength: values.number("biaxial_strength"),
+                normal_coupling: values.number("normal_coupling"),
+                lateral_coupling: values.number("lateral_coupling"),
+                shape_coupling: values.number("shape_coupling"),
             },
             toughness: values.number("toughness"),
             softening: softening::Linear,
-            friction: None,
+            friction: match values.choice("after_failure") {
+                "friction" => Some(values.number("friction")),
+                _ => None,
+            },
         },
         planes,
     }

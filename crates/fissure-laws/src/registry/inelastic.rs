@@ -74,7 +74,7 @@ pub(super) const J2_TABLE: Entry = Entry {
 
 pub(super) const VISCOUS_DAMAGE: Entry = Entry {
     name: "viscous-damage",
-    about: "damage of concrete that lags behind the strain",
+    about: "damage of concrete; it lags behind the strain if all four parameters of the lag are given",
     parameters: &[
         density(2400.0),
         young(36e9),
@@ -87,29 +87,42 @@ pub(super) const VISCOUS_DAMAGE: Entry = Entry {
             "1",
             1.5,
         ),
-        LawParameter::not_negative(
-            "lag",
-            "relaxation time at a rate of 1/s; 0 for none",
-            "s",
-            5e-5,
+        LawParameter::unpublished("lag", "relaxation time at a rate of 1/s", "s"),
+        LawParameter::unpublished(
+            "rate_curvature",
+            "c_t1, of the squared logarithm of the rate",
+            "1",
         ),
-        LawParameter::number("rate_exponent", "minus the exponent of the rate", "1", 0.8),
+        LawParameter::unpublished("rate_exponent", "c_t2, minus the exponent of the rate", "1"),
+        LawParameter::unpublished(
+            "relaxation_exponent",
+            "g_h; 1 for exponential relaxation",
+            "1",
+        ),
     ],
     plane_stress: true,
     build: |values, space| {
-        let time = values.number("lag");
+        let relaxation = Relaxation {
+            time: values.number("lag"),
+            rate_curvature: values.number("rate_curvature"),
+            rate_exponent: values.number("rate_exponent"),
+            exponent: values.number("relaxation_exponent"),
+        };
+        // All or none: one that is missing is not a number, which the law refuses by its name.
+        let given = [
+            relaxation.time,
+            relaxation.rate_curvature,
+            relaxation.rate_exponent,
+            relaxation.exponent,
+        ];
+        let any = given.iter().any(|value| !value.is_nan());
         let law = ViscousDamage {
             elastic: isotropic(values),
             surface: DamageSurface::CONCRETE,
             threshold: values.number("threshold"),
             spread: values.number("spread"),
             exponent: values.number("damage_exponent"),
-            relaxation: (time != 0.0).then(|| Relaxation {
-                time,
-                rate_curvature: 0.0,
-                rate_exponent: values.number("rate_exponent"),
-                exponent: 1.0,
-            }),
+            relaxation: any.then_some(relaxation),
         };
         plain(law, values.number("threshold"), space)
     },

@@ -11,8 +11,8 @@ fn round_off<M: Cracking>(subject: &Subject<M>, strain: f64) -> f64 {
 }
 
 /// In pure opening: without a crack the failure function is not positive; a crack that softened
-/// in a step and still carries something carries exactly `strength × ratio` (the failure function
-/// vanishes where the multiplier does not). Bound: `1e-10` of the strength plus round-off, over
+/// in a step and still carries something is on its failure function, in opening `strength × ratio`
+/// ([`Cracking::failure_of`] vanishes where the multiplier does not). Bound: `1e-10` of the strength plus round-off, over
 /// `1 − band/limit`.
 pub(super) fn consistency<M: Cracking>() -> Property<M> {
     Property {
@@ -39,9 +39,9 @@ pub(super) fn consistency<M: Cracking>() -> Property<M> {
                         "the failure function is positive and there is no crack",
                     ),
                     [crack] if !crack.failed && now != before => gauge.check(
-                        (traction(subject, &stress, crack) - crack.strength_ratio).abs(),
+                        law.failure_of(&stress, crack, &scale).abs(),
                         tolerance / subject.reserve(crack.width),
-                        "a softening crack is off its curve, over the strength",
+                        "a softening crack is off its failure function",
                     ),
                     _ => {}
                 }

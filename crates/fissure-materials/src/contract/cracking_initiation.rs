@@ -5,11 +5,13 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use fissure_tensor::{Sym, Vector3, rotation};
 
 use super::{Case, Random, frames::perturbed, gauge::Gauge, runner::Property, subject::Subject};
+use crate::bisection::bisect;
 use crate::{Crack, Cracking, MaterialError, Scale};
 
 /// No direction of a grid of 3° over the half sphere gives a larger failure function than the
 /// law's maximum, the value is that of its normal, and in a step from the virgin material over
-/// the surface a crack starts with a normal that attains the maximum. Bound: `1e-8 (1 + |value|)`.
+/// the surface a crack starts with a normal that attains the maximum of the stress shrunk back to
+/// the surface: that at which it starts on the way. Bound: `1e-8 (1 + |value|)`.
 pub(super) fn initiation<M: Cracking>() -> Property<M> {
     Property {
         name: "P18 initiation",
@@ -115,10 +117,15 @@ fn started<M: Cracking>(
         None => gauge.check(found.value, tolerance, "no crack started over the surface"),
         Some(crack) => {
             gauge.check(-found.value, tolerance, "a crack started below the surface");
-            let value = law.failure_along(&trial, &crack.normal, &scale);
+            let is_below = |share: f64| law.initiation(&(trial * share), &scale).value <= 0.0;
+            let [share, _] = bisect(0.0, 1.0, is_below);
+            let onset = trial * share;
+            let value = law.failure_along(&onset, &crack.normal, &scale);
             gauge.check(
-                value.map_or(f64::NAN, |value| found.value - value),
-                tolerance,
+                value.map_or(f64::NAN, |value| {
+                    law.initiation(&onset, &scale).value - value
+                }),
+                1e-8,
                 "the crack's normal is not the maximising one",
             );
         }

@@ -11,7 +11,8 @@ use crate::{Biot, Cracking, Increment, MaterialError, Response, Scale};
 ///
 /// Bound: `1e-10` of the strain plus `1e-13`, and twice what the same law with a strength out of
 /// reach shows at the same strain: nothing for laws linear in the Biot strain, second order for
-/// others. Judged for up to one crack.
+/// others. Judged for up to one crack; in plane stress for one across the sheet, since what opens out of it shows in no
+/// strain that is controlled.
 pub(super) fn crack_strain<M: Cracking>() -> Property<M> {
     Property {
         name: "P14 crack strain",
@@ -48,7 +49,7 @@ fn judge_crack_strain<M: Cracking>(
         let bound = 2.0 * inelastic(&undamaged)?.norm() + 1e-10 * strain.norm() + 1e-13;
         match law.cracks(&response.state).as_slice() {
             [] => gauge.check(crack_strain.norm(), bound, "crack strain without a crack"),
-            [crack] => {
+            [crack] if !(M::PLANE && crack.normal.z.abs() > 1e-9) => {
                 let along = along(&crack_strain, &crack.normal);
                 gauge.check(along, bound, "crack strain along the crack");
                 let opening = crack_strain.normal_component(&crack.normal);

@@ -3,13 +3,13 @@
 use std::fmt;
 
 use super::runner::{Property, judge, nth_case, tally};
-use super::{Case, Contract, Summary, Violation, cracking, general, subject::Subject};
+use super::{Case, Contract, Summary, Violation, battery, general, subject::Subject};
 use crate::{Cracking, Material};
 
 /// Where a violation was found, and so how it is found again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// The contract that found it; all but the number of samples matters.
+    /// The contract that found it; all but the number of samples and what was not held matters.
     pub contract: Contract,
     /// Whether the law was checked as one that cracks, which draws other cases.
     pub cracking: bool,
@@ -26,6 +26,7 @@ impl fmt::Display for Replay {
             strain_scale,
             band,
             step_error_steps,
+            not_held: _,
         } = &self.contract;
         write!(out, "Contract {{ seed: {seed:#x}, ")?;
         if strain_scale.is_some() {
@@ -151,23 +152,11 @@ impl Contract {
         cracking: bool,
     ) -> Result<&'a Property<M>, Violation> {
         let mut all = properties.iter();
-        let number = |p: &&Property<M>| p.name.split(' ').next() == Some(name);
         all.clone()
             .find(|p| p.name == name)
-            .or_else(|| all.find(number))
-            .ok_or_else(|| {
-                let known: Vec<_> = properties.iter().map(|p| p.name).collect();
-                let reason = format!("there is none named '{name}': {}", known.join(", "));
-                self.without_case("a property to replay", reason, cracking)
-            })
+            .or_else(|| all.find(|p| p.is(name)))
+            .ok_or_else(|| self.unknown(name, properties, cracking))
     }
-}
-
-/// Every property of a law that cracks.
-fn battery<M: Cracking>() -> Vec<Property<M>> {
-    let mut all = general();
-    all.extend(cracking());
-    all
 }
 
 fn one<M: Material>(

@@ -17,7 +17,7 @@ pub struct Tally {
     pub skipped: usize,
     /// Cases in which the law refused a deformation.
     pub refused: usize,
-    /// Largest measured value over its bound; at most 1 in a summary.
+    /// Largest measured value over its bound; over 1 only where the property does not hold, as was said.
     pub worst: f64,
     /// Why the property was left out, if it was.
     pub note: Option<&'static str>,
@@ -37,6 +37,8 @@ pub struct Summary {
     pub step_error: f64,
     /// Largest departure from major symmetry of a tangent, over the stiffness; 0 if not measured.
     pub asymmetry: f64,
+    /// Violations of properties that were said not to hold ([`Contract::not_held`](super::Contract::not_held)).
+    pub not_held: Vec<Violation>,
 }
 
 impl Summary {

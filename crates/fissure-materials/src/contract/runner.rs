@@ -21,6 +21,13 @@ pub(super) struct Property<M> {
     pub must_apply: bool,
 }
 
+impl<M> Property<M> {
+    /// Whether this is its name or number ("P9").
+    pub fn is(&self, name: &str) -> bool {
+        self.name == name || self.name.split(' ').next() == Some(name)
+    }
+}
+
 /// Runs one property over its samples.
 pub(super) fn run<M: Material>(
     property: &Property<M>,

@@ -3,7 +3,7 @@
 use fissure_tensor::{Matrix3, Sym, Tangent};
 
 use super::{Case, gauge::Gauge, runner::Property, subject::Subject};
-use crate::material::{columns, completed};
+use crate::material::{DIFFERENCE_STEP, columns, completed, difference_tangent};
 use crate::{Increment, Material, MaterialError, Response};
 
 /// Difference steps tried, over the natural strain; a short one resolves sharp bends, a long one
@@ -89,6 +89,20 @@ pub fn tangent_error<M: Material>(
         largest = largest.max(best / stiffness.max(slope.claimed.max_abs()));
     }
     Ok(largest)
+}
+
+/// Whether a law's tangent in this step is the difference quotient that [`Material::tangent`] takes by default, to the last
+/// bit. [`tangent_error`] then compares two quotients of the same update, with different steps.
+///
+/// # Errors
+/// As [`Material::update`].
+pub fn is_difference_quotient<M: Material>(
+    law: &M,
+    increment: &Increment,
+    old: &M::State,
+) -> Result<bool, MaterialError> {
+    let tangent = law.tangent(increment, old)?;
+    Ok(difference_tangent(law, increment, old, DIFFERENCE_STEP)? == tangent)
 }
 
 /// How the Kirchhoff stress changes with one Mandel component of a change of `F`.

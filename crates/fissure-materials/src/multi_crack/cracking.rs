@@ -41,9 +41,12 @@ impl<const N: usize, D: Decohesion> Cracking for MultiCrack<N, D> {
     }
 
     fn initiation(&self, stress: &Sym, scale: &Scale) -> Initiation {
-        self.decohesion
-            .scaled(scale)
-            .initiation(stress, Rank::First)
+        self.decohesion.scaled(scale).farthest(stress)
+    }
+
+    fn failure_of(&self, stress: &Sym, crack: &Crack, scale: &Scale) -> f64 {
+        let decohesion = self.decohesion.scaled(scale);
+        decohesion.on_plane(stress, &crack.normal, crack.strength_ratio)
     }
 
     fn cracks(&self, state: &Self::State) -> Vec<Crack> {

@@ -36,6 +36,12 @@ impl Trial {
         self.elastic.p_wave_modulus() / plane.width
     }
 
+    /// Whether faces that may part freely are open beyond their seat. The opening itself does not tell: it may be off by a
+    /// round-off that was not worth a return.
+    pub fn parts(&self, plane: &Plane) -> bool {
+        self.normal_traction(plane) > self.normal_stiffness(plane) * plane.seat
+    }
+
     /// Shear traction lost per slip, `μ/L`, Pa/m.
     pub fn shear_stiffness(&self, plane: &Plane) -> f64 {
         self.elastic.shear_modulus() / plane.width
@@ -114,8 +120,19 @@ pub trait Decohesion: Copy + Debug + Send + Sync + 'static {
     /// At least the failure function in every direction, from invariants.
     fn upper_bound(&self, stress: &Sym) -> f64;
 
-    /// The largest failure function and its direction.
+    /// The direction in which a plane starts, with the largest failure function.
     fn initiation(&self, stress: &Sym, rank: Rank) -> Initiation;
+
+    /// The largest failure function before any plane has started and its direction: that of
+    /// [`initiation`](Self::initiation) on the surface, and beyond it too unless the law starts planes otherwise there.
+    fn farthest(&self, stress: &Sym) -> Initiation {
+        self.initiation(stress, Rank::First)
+    }
+
+    /// The failure function on a plane that has started, with what it has left of its strength: zero while it softens.
+    fn on_plane(&self, stress: &Sym, normal: &Vector3<f64>, left: f64) -> f64 {
+        stress.normal_component(normal) / self.strength() - left
+    }
 
     /// Change of the normal that [`initiation`](Self::initiation) gives, with the stress, given as value and rate.
     fn normal_rate(&self, stress: [&Sym; 2], normal: &Vector3<f64>, rank: Rank) -> Vector3<f64>;
@@ -152,7 +169,7 @@ pub(super) fn contact(old: &Plane, trial: &Trial, limit: impl Fn(f64) -> f64) ->
 
 /// What presses the faces of a plane together, Pa; exactly nothing on a failed one that is open.
 pub(super) fn pressure(plane: &Plane, trial: &Trial) -> f64 {
-    if plane.failed && plane.opening > plane.seat {
+    if plane.failed && trial.parts(plane) {
         return 0.0;
     }
     (trial.normal_stiffness(plane) * plane.opening - trial.normal_traction(plane)).max(0.0)

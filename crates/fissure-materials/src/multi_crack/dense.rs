@@ -1,5 +1,9 @@
 //! A small dense linear system on the stack.
 
+use fissure_tensor::Sym;
+
+use super::Plane;
+
 /// Most unknowns: three for each of twenty planes.
 const MOST: usize = 60;
 
@@ -11,12 +15,25 @@ pub(super) struct Dense {
 }
 
 impl Dense {
-    /// `size` unknowns, at most 60.
-    pub fn new(size: usize) -> Self {
-        Self {
+    /// `size` unknowns; `None` for more than 60.
+    pub fn new(size: usize) -> Option<Self> {
+        (size <= MOST).then_some(Self {
             rows: [[0.0; MOST]; MOST],
             right: [0.0; MOST],
-            size: size.min(MOST),
+            size,
+        })
+    }
+
+    /// What the jumps of the planes other than the line's own change a component of its jump by, whose rate with the strain
+    /// is `stiff`.
+    pub fn set_others(&mut self, line: usize, stiff: &Sym, planes: &[Plane]) {
+        for (column, plane) in planes.iter().enumerate() {
+            if column != line / 3 {
+                let along = stiff.traction(&plane.normal()) / plane.width;
+                for other in 0..3 {
+                    self.set(line, 3 * column + other, along[other]);
+                }
+            }
         }
     }
 

@@ -253,6 +253,16 @@ impl<S: Softening> Decohesion for GeologicalFlow<S> {
         }
     }
 
+    /// Of the stress as it is.
+    fn farthest(&self, stress: &Sym) -> Initiation {
+        self.surface.initiation(stress)
+    }
+
+    fn on_plane(&self, stress: &Sym, normal: &Vector3<f64>, left: f64) -> f64 {
+        let plane = OnPlane::new(stress, normal);
+        self.surface.flow_partials(&plane, left).value
+    }
+
     /// That of the stress shrunk to the surface, of which the share follows: `F_n(s σ) = 0`.
     fn normal_rate(
         &self,

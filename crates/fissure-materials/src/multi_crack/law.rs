@@ -19,6 +19,11 @@ const LEANS_OUT: MaterialError = MaterialError::Unsupported {
     reason: "a rotating plane in plane stress needs poisson >= 0: it would turn into the sheet",
 };
 
+const FLOWS_ALONG: MaterialError = MaterialError::Unsupported {
+    law: NAME,
+    reason: "several planes that shear or the stress along them opens do not keep their energy in plane stress",
+};
+
 impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     type State = MultiCrackState<N>;
     const SPARSE: bool = true;
@@ -110,12 +115,17 @@ impl<const N: usize, D: Decohesion> Material for MultiCrack<N, D> {
     ///
     /// # Errors
     /// [`MaterialError::Unsupported`] for a rotating plane and ν < 0: in a search for the thickness it would turn into the sheet.
+    /// And for several planes that do not open by the traction across them alone: the search may end on another branch, and
+    /// the work is not what is stored and dissipated (P6).
     fn plane_stress(
         &self,
         increment: &Increment,
         old: &Self::State,
         with_tangent: bool,
     ) -> Result<Option<SheetStep<Self::State>>, MaterialError> {
+        if self.most() > 1 && !self.decohesion.opens_alone() {
+            return Err(FLOWS_ALONG);
+        }
         let rotating = self.planes == Planes::Rotating;
         let across = rotating || self.decohesion.has_sheet_form();
         if !(across && self.elastic.poisson >= 0.0) {

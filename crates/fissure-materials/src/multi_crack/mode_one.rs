@@ -104,7 +104,7 @@ impl<S: Softening> ModeOne<S> {
     fn opening_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> f64 {
         let stiffness = trial.normal_stiffness(new);
         if new.failed {
-            return if new.opening > new.seat {
+            return if trial.parts(new) {
                 1.0 / stiffness
             } else {
                 0.0
@@ -115,7 +115,7 @@ impl<S: Softening> ModeOne<S> {
             return 1.0 / (stiffness + slope);
         }
         match self.unloading {
-            Unloading::Secant if new.opening > 0.0 => 1.0 / (stiffness + self.secant(new.softened)),
+            Unloading::Secant if trial.parts(new) => 1.0 / (stiffness + self.secant(new.softened)),
             Unloading::Permanent | Unloading::Secant => 0.0,
         }
     }
@@ -244,8 +244,15 @@ impl<S: Softening> Decohesion for ModeOne<S> {
 
     fn release(&self, old: &Plane, trial: &Trial) -> Plane {
         let limit = |pressure: f64| self.friction() * pressure;
+        // Without a limit there is no slack in sliding: planes that leapt over it, each moving the others, would do so for ever.
+        let free = Trial {
+            slack: 0.0,
+            ..*trial
+        };
+        let sliding = |limit: f64| if limit == 0.0 { &free } else { trial };
         if old.failed {
-            let mut plane = contact(old, trial, limit);
+            let pressed = limit(pressure(old, trial));
+            let mut plane = contact(old, sliding(pressed), limit);
             if self.shear == Shear::Elastic {
                 plane.slip = [0.0; 3];
             }
@@ -261,7 +268,9 @@ impl<S: Softening> Decohesion for ModeOne<S> {
                 let damage = self.damage(&trial.elastic, &plane);
                 trial.shear_traction(old) * (damage / trial.shear_stiffness(old))
             }
-            Shear::Coulomb(_) | Shear::Damaged(_) => slide(old, trial, limit(pressure)),
+            Shear::Coulomb(_) | Shear::Damaged(_) => {
+                slide(old, sliding(limit(pressure)), limit(pressure))
+            }
         };
         plane.slip = slip.into();
         plane

@@ -24,6 +24,13 @@ const MAXIMAL_RETURNS: usize = 2000;
 /// Round-off of the sum of so many returns over that of one.
 const SUMMED: f64 = 1e3;
 
+/// Returns of single planes after which those that creep are let go.
+const STEADY_RETURNS: usize = 200;
+
+/// What may be left then, over the round-off of one return: two planes nearly across each other share a shear strain, each may
+/// take it, and returns shift it from one to the other by round-off while the stress stays.
+const CREEP: f64 = 8.0;
+
 /// Returns of single planes between two of all at once.
 const RETURNS_BETWEEN_JUMPS: usize = 40;
 
@@ -108,8 +115,13 @@ impl<D: Decohesion> Point<'_, D> {
             let tolerance = tolerance(self.decohesion, self.elastic, self.strain, planes);
             let chosen = self.next(planes, &stress, tolerance);
             residual = chosen.as_ref().map_or(0.0, |(_, _, change)| *change);
-            // What a step left is more by round-off from where it ended: a zero increment shall not take it up again.
-            let enough = if count == 1 { 2.0 } else { 1.0 } * tolerance;
+            let enough = tolerance
+                * match count {
+                    // What a step left is more by round-off from where it ended: a zero increment shall not take it up again.
+                    1 => 2.0 * CREEP,
+                    2..=STEADY_RETURNS => 1.0,
+                    _ => CREEP,
+                };
             // NaN goes on to the end, as an error.
             if residual <= enough {
                 return Ok(stress);
@@ -173,12 +185,9 @@ impl<D: Decohesion> Point<'_, D> {
     fn jump_ahead(&self, planes: &mut [Plane], tolerance: f64) -> Option<()> {
         let stress = stress_of(self.elastic, self.strain, planes);
         let count = planes.len();
-        if count > MAXIMAL_JUMP {
-            return None;
-        }
+        let mut system = Dense::new(3 * count)?;
         let old = self.old?;
         let (_, _, before) = self.next(planes, &stress, tolerance)?;
-        let mut system = Dense::new(3 * count);
         for (row, start) in old.iter().enumerate() {
             let trial = self.trial(planes, row, &stress, tolerance);
             let next = self.decohesion.release(start, &trial);
@@ -188,15 +197,7 @@ impl<D: Decohesion> Point<'_, D> {
                 let line = 3 * row + axis;
                 system.set(line, line, 1.0);
                 system.set_right(line, left[axis]);
-                let stiff = self.elastic.stress(&rate[axis]);
-                for (column, plane) in planes.iter().enumerate() {
-                    if column != row {
-                        let along = stiff.traction(&plane.normal()) / plane.width;
-                        for other in 0..3 {
-                            system.set(line, 3 * column + other, along[other]);
-                        }
-                    }
-                }
+                system.set_others(line, &self.elastic.stress(&rate[axis]), planes);
             }
         }
         system.solve();

@@ -99,6 +99,7 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
             law.energy_error(case.size("paths")?, seed),
         )
         .field("tangent_error_max", fuzzed.tangent_error)
+        .field("tangent", fuzzed.tangent())
         .field("ratio_to_elastic", speed.undamaged)
         .field("bytes_undamaged", undamaged)
         .field("bytes_cracked", cracked)
@@ -110,6 +111,7 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
         .field("failed", fuzzed.failed)
         .field("most_cracks", fuzzed.most_cracks)
         .field("tangents", fuzzed.tangents)
+        .field("tangents_numerical", fuzzed.numerical_tangents)
         .field("wall_s", wall_s)
         .parameters(case);
     Ok((row, fuzzed.first))

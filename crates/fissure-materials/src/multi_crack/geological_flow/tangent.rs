@@ -43,7 +43,7 @@ impl<S: Softening> GeologicalFlow<S> {
     /// Change of the jump of a failed plane with the traction of the trial, m/Pa.
     pub(super) fn contact_rate(&self, old: &Plane, new: &Plane, trial: &Trial) -> Matrix3<f64> {
         let normal = new.normal();
-        if new.opening > new.seat {
+        if trial.parts(new) {
             // Open: all the stress is given up.
             let across = normal * normal.transpose();
             let plane = Matrix3::identity() - across;

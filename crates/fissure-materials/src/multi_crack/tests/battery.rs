@@ -45,6 +45,27 @@ fn several_planes_without_shear_pass() {
     }
 }
 
+/// P9 and P10 of walks along which planes share a shear strain, or leap over a slack while they move one another: the
+/// stress is the same in every frame.
+#[test]
+fn several_planes_without_shear_pass_whatever_the_walk() {
+    for unloading in [Unloading::Permanent, Unloading::Secant] {
+        let law = law::<6>(unloading, Shear::Coulomb(0.0), Planes::Multiple(None));
+        for seed in 0..4 {
+            let contract = Contract {
+                seed,
+                ..contract(40)
+            };
+            assert_eq!(message(contract.check(&law)), "", "{unloading:?}");
+        }
+        let replayed = Contract {
+            seed: 8,
+            ..contract(40)
+        };
+        assert_eq!(message(replayed.replay_cracking(&law, "P10", 9)), "");
+    }
+}
+
 /// P1, P3, P6, P9, P10, P22 and P24 hold. P11 does not where, within one step, two directions ask
 /// for the next plane equally: which one starts is a change of mode, and the stress jumps.
 fn passes_up_to_continuity<M: Material>(law: &M) {
@@ -82,6 +103,30 @@ fn a_plane_that_cannot_rotate_is_refused() {
     let refused = |outcome| matches!(outcome, Err(MaterialError::Unsupported { .. }));
     assert!(refused(PlaneStress(widening).check()));
     assert!(refused(geological::<1>(None, Planes::Rotating).check()));
+}
+
+/// At the check and at every use; a single one, or one place for several, is welcome.
+#[test]
+fn several_geological_planes_are_refused_in_plane_stress() {
+    let several = PlaneStress(geological::<6>(None, Planes::Multiple(None)));
+    let refused = |error| matches!(error, MaterialError::Unsupported { .. });
+    assert!(several.check().is_err_and(refused));
+    let stretched = Increment::to(Matrix3::identity() * 1.00001);
+    assert!(
+        several
+            .update(&stretched, &several.initial())
+            .is_err_and(refused)
+    );
+    assert!(
+        several
+            .tangent(&stretched, &several.initial())
+            .is_err_and(refused)
+    );
+    for single in [Planes::Fixed, Planes::Multiple(None)] {
+        let single = PlaneStress(geological::<1>(None, single));
+        assert_eq!(single.check(), Ok(()));
+        assert!(single.update(&stretched, &single.initial()).is_ok());
+    }
 }
 
 #[test]

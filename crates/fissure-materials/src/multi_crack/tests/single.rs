@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::Cracking;
-use crate::{Decohesive, Normal, contract::Random};
+use crate::contract::{Random, tangent_error};
+use crate::{Decohesive, Normal};
 
 /// With the choices of the document the law is the single-crack one.
 #[test]
@@ -116,5 +117,36 @@ fn a_failed_plane_slides_by_coulomb_and_lets_go() -> Result<(), MaterialError> {
     assert!((seen[3].0.xy() / (friction * pressure) - 1.0).abs() < 2e-3);
     assert!(seen[3].1 > 0.0);
     assert!(seen[4].0.xx().abs() < 1e-3 && seen[4].0.xy().abs() < 1e-3);
+    Ok(())
+}
+
+/// P3 under pressure, where an opening of round-off is none: neither may it part the faces, nor take the friction away.
+#[test]
+fn a_plane_open_by_round_off_is_shut() -> Result<(), MaterialError> {
+    let rest = Sym::diagonal(-4e-5, 0.0, 0.0);
+    for (failed, softened) in [(false, 0.02), (true, 2.0)] {
+        let law = law::<1>(Unloading::Secant, Shear::Coulomb(0.5), Planes::Fixed);
+        let plane = Plane {
+            normal: [1.0, 0.0, 0.0],
+            opening: 3e-21,
+            traction: [-1e6, 0.0, 0.0],
+            width: 0.01,
+            softened,
+            failed,
+            ..Plane::default()
+        };
+        let state = MultiCrackState::from_planes(&[plane]);
+        for shear in [1e-5, 2e-4] {
+            let pressed = Sym::new(-1e-4, 0.0, 0.0, 0.0, 0.0, shear);
+            let step = step_to(&rest, &pressed, Band::Uniform(0.01));
+            let stiffness = CONCRETE.p_wave_modulus();
+            let error = tangent_error(&law, &step, &state, stiffness, &[1e-6, 1e-7])?;
+            assert!(error < 1e-8, "{failed} {shear}: {error:e}");
+            let traction = law.update(&step, &state)?.stress.traction(&Vector3::x());
+            let held = 2.0 * CONCRETE.shear_modulus() * shear;
+            let carried = traction.y.abs() / held.min(-0.5 * traction.x);
+            assert!((carried - 1.0).abs() < 1e-3, "{failed} {shear}: {carried}");
+        }
+    }
     Ok(())
 }
