@@ -92,7 +92,8 @@ pub fn tangent_error<M: Material>(
 }
 
 /// Whether a law's tangent in this step is the difference quotient that [`Material::tangent`] takes by default, to the last
-/// bit. [`tangent_error`] then compares two quotients of the same update, with different steps.
+/// bit. [`tangent_error`] then compares two quotients of the same update, with different steps. Where nothing is carried both
+/// are zero, and that counts as no quotient.
 ///
 /// # Errors
 /// As [`Material::update`].
@@ -102,7 +103,8 @@ pub fn is_difference_quotient<M: Material>(
     old: &M::State,
 ) -> Result<bool, MaterialError> {
     let tangent = law.tangent(increment, old)?;
-    Ok(difference_tangent(law, increment, old, DIFFERENCE_STEP)? == tangent)
+    let quotient = difference_tangent(law, increment, old, DIFFERENCE_STEP)?;
+    Ok(quotient == tangent && tangent.max_abs() > 0.0)
 }
 
 /// How the Kirchhoff stress changes with one Mandel component of a change of `F`.
