@@ -241,8 +241,8 @@ fn measure(
         inner: inner * radius,
         outer: outer * radius,
     };
-    // Within four cells of the tip the field is that of the grid, if there are as many up to the domain of K.
-    let inner = (NEAREST * h / radius).clamp(0.25, 0.4);
+    // Within four cells of the tip the field is that of the grid.
+    let inner = (NEAREST * h / radius).clamp(0.25, 0.5);
     let domains = [annulus(inner, 0.7), annulus(inner, 0.85), annulus(0.5, 1.0)];
     let found = interaction(&field, &tip, &annulus(0.4, 0.85), &ELASTIC)?;
     let j = contours(&field, &tip, &domains)?;
