@@ -511,7 +511,7 @@ fn centre_crack(a: f64, h: f64) -> EnergyTotals {
 }
 
 /// Virtual crack closure: two plates that differ by a cell of crack, against K²/E′ of the plate between them. K is that
-/// of Tada for a strip; the bar of K is 2 %, so that of G 4 %.
+/// of Tada for a strip, good to 0.1 %; a is 25 cells. Found: 1.002 and 1.005.
 #[test]
 fn a_longer_crack_has_released_the_energy_of_its_intensity() {
     let h = 2.0 * HALF / 25.0;
@@ -524,7 +524,7 @@ fn a_longer_crack_has_released_the_energy_of_its_intensity() {
             (1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4)) / (0.5 * PI * ratio).cos().sqrt();
         let exact = GLASS.energy_release(1e5 * (PI * a).sqrt() * form, 0.0);
         println!("G by closure over K²/E′ at {part}: {}", found / exact);
-        assert!((found / exact - 1.0).abs() < 0.04, "{}", found / exact);
+        assert!((found / exact - 1.0).abs() < 0.015, "{}", found / exact);
     }
 }
 
