@@ -16,6 +16,7 @@ fn an_aligned_bar_breaks_once_under_every_law() {
             "weak=line",
             "fill=rotated",
             "offset=0",
+            "strain=particle",
             laws,
         ],
     );
