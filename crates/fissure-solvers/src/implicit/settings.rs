@@ -42,7 +42,7 @@ pub struct ImplicitSettings {
     /// How the linear systems are solved.
     pub linear: LinearSolver,
     /// Unbalanced forces over the largest of internal, external and inertial forces at which a step is
-    /// accepted; in (0, 1e-2].
+    /// accepted; in (0, 1e-2]. No more is asked than rounding of the stresses lets be had.
     pub tolerance: f64,
     /// Newton iterations before a step is cut; ≥ 1.
     pub max_iterations: usize,

@@ -72,7 +72,7 @@ pub struct QuasiStaticSettings {
     /// `stabilisation`. ≥ 0.
     pub stabilisation: f64,
     /// Residual forces over the largest reaction so far at which a step is in equilibrium; in
-    /// (0, 1e-2].
+    /// (0, 1e-2]. No more is asked than rounding of the stresses lets be had.
     pub tolerance: f64,
     /// Newton iterations before a step is cut, tries of a shorter correction among them; ≥ 1.
     pub max_iterations: usize,
