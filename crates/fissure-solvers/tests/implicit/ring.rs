@@ -34,7 +34,7 @@ fn a_thin_ring_breathes_at_its_frequency() {
             .unwrap();
         let grid = Grid::over([1.0 - 5.5 * H, -4.0 * H], [1.0 + 5.5 * H, 7.0 * H], H).unwrap();
         let settings = ImplicitSettings {
-            // A hundred a period: 30 times the explicit limit.
+            // A hundred a period: three times the explicit limit.
             step: 0.02 * PI / omega,
             integration,
             ..ImplicitSettings::default()

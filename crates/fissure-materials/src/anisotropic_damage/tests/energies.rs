@@ -98,7 +98,7 @@ fn spends_its_toughness<S: Softening>(name: &str, softening: S) -> Result<(), Ma
         }
         let way = if opens { "opening" } else { "sliding" };
         println!("{name}, {way}: energy to failure over {PATHS} paths within {worst:e}");
-        assert!(worst < 1e-6, "{name}, {way}: {worst:e}");
+        assert!(worst < 1e-12, "{name}, {way}: {worst:e}");
     }
     Ok(())
 }
