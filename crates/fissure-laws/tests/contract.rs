@@ -2,7 +2,6 @@
 
 use fissure_laws::{LAWS, Space, Values};
 use fissure_materials::contract::Contract;
-use fissure_materials::{DamageSurface, Isotropic, PlaneStress, Relaxation, ViscousDamage};
 
 /// What laws do not hold, each for a reason.
 ///
@@ -51,35 +50,4 @@ fn every_law_passes_the_contract_where_it_is_offered() {
         }
     }
     assert!(violations.is_empty(), "{}", violations.join("\n\n"));
-}
-
-/// The concrete with its lag, whose parameters have no default.
-#[test]
-fn concrete_that_lags_passes_the_contract() {
-    let law = ViscousDamage {
-        elastic: Isotropic {
-            density: 2400.0,
-            young: 36e9,
-            poisson: 0.22,
-        },
-        surface: DamageSurface::CONCRETE,
-        threshold: 2.5e-5,
-        spread: 2.2e-4,
-        exponent: 1.5,
-        relaxation: Some(Relaxation {
-            time: 5e-5,
-            rate_curvature: 0.0,
-            rate_exponent: 0.8,
-            exponent: 1.0,
-        }),
-    };
-    let contract = Contract {
-        samples: 32,
-        step_error_steps: 20,
-        ..Contract::default()
-    };
-    let broken = [contract.check(&law), contract.check(&PlaneStress(law))];
-    for outcome in broken {
-        assert_eq!(outcome.map_err(|v| v.to_string()).err(), None);
-    }
 }

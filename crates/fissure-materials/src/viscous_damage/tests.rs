@@ -2,7 +2,7 @@ use super::*;
 use crate::contract::{self, Random};
 use crate::material::difference_tangent;
 use crate::testing::{assert_tangent, assert_wave_speed};
-use crate::{Axis, Band, Component, Control, Leg, Path, Point, PointError, Vector3};
+use crate::{Axis, Band, Component, Control, Leg, Path, PlaneStress, Point, PointError, Vector3};
 
 /// Table 5 of the source, without relaxation.
 const CONCRETE: ViscousDamage = ViscousDamage {
@@ -93,8 +93,10 @@ fn passes_the_battery_lagging_or_not() {
         lagging(slow),
         lagging(stretched),
     ] {
-        let message = contract::check(&law).err().map(|v| v.to_string());
-        assert_eq!(message.unwrap_or_default(), "", "{law:?}");
+        for outcome in [contract::check(&law), contract::check(&PlaneStress(law))] {
+            let message = outcome.err().map(|v| v.to_string());
+            assert_eq!(message.unwrap_or_default(), "", "{law:?}");
+        }
     }
 }
 
