@@ -140,3 +140,27 @@ fn a_held_strain_relaxes_exponentially() -> Result<(), MaterialError> {
     }
     Ok(())
 }
+
+/// Relaxation that is not exponential: in 64 steps or 4096 the stress is the same but for what
+/// joining parcels loses, which more steps do not take away.
+#[test]
+fn a_stretched_lag_depends_on_the_steps_by_what_joining_loses() -> Result<(), MaterialError> {
+    let law = lagging(STRETCHED);
+    let strain = Sym::new(1.76e-4, 8.76e-5, 0.0, 0.0, 0.0, -1.51e-4).to_matrix();
+    let stress_in = |steps: i32| -> Result<f64, MaterialError> {
+        let (mut state, mut f, mut stress) = (law.initial(), Matrix3::identity(), 0.0);
+        for step in 1..=steps {
+            let f_new = Matrix3::identity() + strain * (f64::from(step) / f64::from(steps));
+            let response = law.update(&between(f, f_new, 1.0 / f64::from(steps)), &state)?;
+            (state, f, stress) = (response.state, f_new, response.stress.xx());
+        }
+        Ok(stress)
+    };
+    let few = stress_in(64)?;
+    for steps in [128, 256, 512, 1024, 2048, 4096] {
+        let many = stress_in(steps)?;
+        println!("{steps} steps against 64: {:.1e}", many / few - 1.0);
+        near(many, few, 6e-3);
+    }
+    Ok(())
+}
