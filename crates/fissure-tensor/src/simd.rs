@@ -9,7 +9,7 @@ mod plain;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use columns::{Row, chunks, read_columns, read_numbers, write_columns};
+pub use columns::{Row, chunks, prefetch_rows, read_columns, read_numbers, write_columns};
 use plain::Plain;
 
 /// Numbers that go through a vector unit at once.
@@ -60,6 +60,9 @@ pub trait Lanes: Copy + Send + Sync {
     fn columns2(self, rows: [&[f64; 2]; 8]) -> [Self::Eight; 2];
     /// Two columns become eight rows of two numbers.
     fn rows2(self, columns: [Self::Eight; 2]) -> [[f64; 2]; 8];
+    /// Has the machine bring the line at this address to its caches, if it can. Nothing is read: any address will do.
+    #[inline(always)]
+    fn prefetch(self, _address: *const u8) {}
 }
 
 /// What is run on a vector unit. `run` must be `#[inline(always)]`, and so must what it calls, or it is compiled for

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use fissure_grid::simd::{EIGHT, Lanes, SimdTask, write_columns};
+use fissure_grid::simd::{EIGHT, Lanes, SimdTask, prefetch_rows, write_columns};
 use fissure_grid::{FIELD, SUMS, Shape, Stencils};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Run, RunConstants, RunKernel, WindowKernel};
@@ -213,6 +213,7 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
         let pass = tile.pass;
         for first in (0..old.len()).step_by(EIGHT) {
             let rows = first..(first + EIGHT).min(old.len());
+            prefetch(lanes, first, constants, old, new);
             let x = positions(lanes, &old.position[first..]);
             let f = &old.deformation_gradient[first..];
             let stencils = pass
@@ -258,6 +259,30 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
         }
         Ok(())
     }
+}
+
+/// How many rows ahead of those at work columns are asked for: about as long as memory takes to answer.
+const AHEAD: usize = 2 * EIGHT;
+
+/// Asks for what the next particles will read and write. In a batch of runs they stand side by side, so that past the end
+/// of a run are those of the next.
+#[inline(always)]
+fn prefetch<L: Lanes, const D: usize>(
+    lanes: L,
+    first: usize,
+    constants: &RunConstants<'_>,
+    old: &MotionSlices<'_, D>,
+    new: &MotionSlicesMut<'_, D>,
+) {
+    let ahead = first + AHEAD;
+    prefetch_rows(lanes, constants.mass, ahead);
+    prefetch_rows(lanes, constants.volume, ahead);
+    prefetch_rows(lanes, old.position, ahead);
+    prefetch_rows(lanes, old.deformation_gradient, ahead);
+    prefetch_rows(lanes, new.deformation_gradient, ahead);
+    prefetch_rows(lanes, new.velocity, ahead);
+    prefetch_rows(lanes, new.stress, ahead);
+    prefetch_rows(lanes, new.affine, ahead);
 }
 
 struct ScatterRun<'t, 'a, 'c, S, const D: usize> {

@@ -6,6 +6,7 @@ mod bar;
 mod explicit;
 mod orders;
 mod ring;
+mod slow;
 mod solvers;
 mod stiff;
 mod tangent;

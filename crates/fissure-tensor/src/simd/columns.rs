@@ -159,6 +159,17 @@ fn write_eight<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T; 
     }
 }
 
+/// Prefetches the eight rows that stand `ahead` of the first of these, in the slice or beyond its end: where the next rows
+/// of a longer column are that this is a part of.
+#[inline(always)]
+pub fn prefetch_rows<L: Lanes, T>(lanes: L, rows: &[T], ahead: usize) {
+    const LINE: usize = 64;
+    let start = rows.as_ptr().wrapping_add(ahead).cast::<u8>();
+    for line in 0..(EIGHT * size_of::<T>()).div_ceil(LINE) {
+        lanes.prefetch(start.wrapping_add(LINE * line));
+    }
+}
+
 /// Numbers of each of eight rows from `at` on; zeros for a row that has not so many. `at` is within every row.
 #[inline(always)]
 pub fn chunks<const N: usize>(rows: [&[f64]; EIGHT], at: usize) -> [&[f64; N]; EIGHT] {

@@ -1,5 +1,7 @@
 //! Eight numbers on AVX-512, and as two times four on AVX2.
 
+use std::arch::x86_64::_MM_HINT_T0;
+
 use pulp::x86::{V3, V4};
 use pulp::{Simd as _, cast, f64x2, f64x4, f64x8};
 
@@ -109,6 +111,10 @@ impl Lanes for V4 {
         let (a, b) = (self.split2(even[0]), self.split2(odd[0]));
         let (c, d) = (self.split2(even[1]), self.split2(odd[1]));
         [a[0], b[0], a[1], b[1], c[0], d[0], c[1], d[1]]
+    }
+    #[inline(always)]
+    fn prefetch(self, address: *const u8) {
+        self.sse._mm_prefetch::<_MM_HINT_T0>(address.cast());
     }
 }
 
@@ -273,6 +279,10 @@ impl Lanes for V3 {
         let [even, odd] = self.interleaved(columns[0][1], columns[1][1]);
         let (c, d) = (self.split2(even), self.split2(odd));
         [a[0], b[0], a[1], b[1], c[0], d[0], c[1], d[1]]
+    }
+    #[inline(always)]
+    fn prefetch(self, address: *const u8) {
+        self.sse._mm_prefetch::<_MM_HINT_T0>(address.cast());
     }
 }
 
