@@ -57,7 +57,7 @@ fn a_pull_too_small_for_the_tolerance_is_in_balance_at_round_off() {
         cuts += solver.statistics().cuts;
         if step == 1 {
             println!(
-                "residuals of the first step {:.1e?}",
+                "residuals of the first step {:?}",
                 solver.statistics().residuals
             );
         }
