@@ -35,8 +35,8 @@ pub trait Lanes: Copy + Send + Sync {
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     /// `a b + c`, rounded once where the machine can.
     fn mul_add(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
-    /// Four times the first, four times the second.
-    fn pair(self, numbers: &[f64; 2]) -> Self::Eight;
+    /// Four times the one, four times the other.
+    fn pair(self, low: f64, high: f64) -> Self::Eight;
     /// The larger of each two; the second where one is no number.
     fn max(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     /// The first `count`, and zeros.
@@ -167,7 +167,7 @@ mod tests {
         fn run<L: Lanes>(self, lanes: L) -> Vec<f64> {
             let x = lanes.load(&self.0);
             let product = lanes.mul(x, lanes.splat(0.1));
-            let sum = lanes.mul_add(x, lanes.pair(&[0.7, -0.3]), product);
+            let sum = lanes.mul_add(x, lanes.pair(0.7, -0.3), product);
             let mut out = [0.0; 8];
             lanes.store(sum, &mut out);
             let mut sums = [0.0; 8];

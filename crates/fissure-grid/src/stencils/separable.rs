@@ -73,6 +73,12 @@ impl<const K: usize> Along<K> {
         }
     }
 
+    /// Value times arm and slope of a node for one of the particles, each as often as a [`Gift`] has numbers that go by it.
+    #[inline(always)]
+    fn pair<L: Lanes>(&self, lanes: L, k: usize, place: usize) -> L::Eight {
+        lanes.pair(self.moments[k][place], self.slopes[k][place])
+    }
+
     /// Value, slope and value times arm of a node, for eight particles.
     #[inline(always)]
     fn at<L: Lanes>(&self, lanes: L, k: usize) -> [L::Eight; 3] {
@@ -168,14 +174,12 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         _ => (ROW + sums_entry(LAYER)) * (K - 1) + K,
     };
 
-    /// What goes by slope and arm along an axis (`pairs`: weighted arm and slope of each node) is made once for each of its
-    /// nodes; a node then costs two multiply-adds.
+    /// What goes by slope and arm along an axis is made once for each of its nodes; a node then costs two multiply-adds.
     #[inline(always)]
     fn scatter_one<L: Lanes, const E: bool>(
         &self,
         lanes: L,
         place: usize,
-        pairs: &[[[[f64; 2]; EIGHT]; K]; D],
         gift: &Gift<D>,
         sums: &mut [[f64; SUMS]],
     ) {
@@ -186,18 +190,18 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
             for axis in 1..D {
                 let sloped = lanes.load(&gift.sloped[axis]);
                 for (k, extra) in extra[axis].iter_mut().enumerate() {
-                    *extra = lanes.mul(sloped, lanes.pair(&pairs[axis][k][place]));
+                    *extra = lanes.mul(sloped, self.along[axis].pair(lanes, k, place));
                 }
             }
         }
         let sloped = lanes.load(&gift.sloped[0]);
         let base = sums_entry(self.base(place));
         let sums = &mut sums[base..base + Self::SUMS_SPAN];
-        for (i, pairs) in pairs[0].iter().enumerate().take(rolled::<D>(K)) {
+        for i in 0..rolled::<D>(K) {
             let w0 = self.along[0].values[i][place];
             let mut along_0 = lanes.mul(value, lanes.splat(w0));
             if E {
-                let pair = lanes.pair(&pairs[place]);
+                let pair = self.along[0].pair(lanes, i, place);
                 along_0 = lanes.mul_add(sloped, pair, along_0);
             }
             for j in 0..Self::nodes(1) {
@@ -302,18 +306,9 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         count: usize,
         sums: &mut [[f64; SUMS]],
     ) {
-        let mut pairs = [[[[0.0; 2]; EIGHT]; K]; D];
-        if E {
-            for (pairs, along) in pairs.iter_mut().zip(&self.along) {
-                for (k, pairs) in pairs.iter_mut().enumerate() {
-                    let [_, slope, arm] = along.at(lanes, k);
-                    *pairs = lanes.rows2([arm, slope]);
-                }
-            }
-        }
         for (place, gift) in gifts.iter().enumerate().take(count) {
             if self.fits(place) {
-                self.scatter_one::<L, E>(lanes, place, &pairs, gift, sums);
+                self.scatter_one::<L, E>(lanes, place, gift, sums);
             }
         }
     }

@@ -62,8 +62,7 @@ impl Lanes for Plain {
         out
     }
     #[inline(always)]
-    fn pair(self, [low, high]: &[f64; 2]) -> [f64; 8] {
-        let (low, high) = (*low, *high);
+    fn pair(self, low: f64, high: f64) -> [f64; 8] {
         [low, low, low, low, high, high, high, high]
     }
     #[inline(always)]

@@ -43,11 +43,9 @@ impl Lanes for V4 {
         self.mul_add_f64x8(a, b, c)
     }
     #[inline(always)]
-    fn pair(self, numbers: &[f64; 2]) -> f64x8 {
-        let two: f64x2 = cast(*numbers);
-        let low = self.avx512f._mm512_castpd128_pd512(cast(two));
-        let both = self.avx512f._mm512_shuffle_f64x2::<0>(low, low);
-        cast(self.avx512f._mm512_permute_pd::<0b1111_0000>(both))
+    fn pair(self, low: f64, high: f64) -> f64x8 {
+        let (low, high) = (cast(self.splat(low)), cast(self.splat(high)));
+        cast(self.avx512f._mm512_mask_blend_pd(0b1111_0000, low, high))
     }
     #[inline(always)]
     fn max(self, a: f64x8, b: f64x8) -> f64x8 {
@@ -216,8 +214,8 @@ impl Lanes for V3 {
         ]
     }
     #[inline(always)]
-    fn pair(self, [low, high]: &[f64; 2]) -> [f64x4; 2] {
-        [self.splat_f64x4(*low), self.splat_f64x4(*high)]
+    fn pair(self, low: f64, high: f64) -> [f64x4; 2] {
+        [self.splat_f64x4(low), self.splat_f64x4(high)]
     }
     #[inline(always)]
     fn max(self, a: [f64x4; 2], b: [f64x4; 2]) -> [f64x4; 2] {
