@@ -59,24 +59,19 @@ impl Pictures {
             return Ok(());
         };
         let kind = case.choice("case")?;
-        let mut name = format!(
-            "{kind}-{}-{}",
-            case.choice("shape")?,
-            case.choice("transfer")?
-        );
+        let mut scheme = format!("{}-{}", case.choice("shape")?, case.choice("transfer")?);
         for other in ["plane", "band", "measure", "planes", "cracks"] {
             if case.varying().contains(&other) {
-                name = format!("{name}-{}", case.choice(other)?);
+                scheme = format!("{scheme}-{}", case.choice(other)?);
             }
         }
+        let name = format!("{kind}-{scheme}");
         let row = &finished.row;
         let error = row.errors.get("peak").unwrap_or(f64::NAN);
-        for (_, chart) in self
-            .times
-            .iter_mut()
-            .filter(|(known, _)| *known == kind_of(kind))
-        {
-            chart.add(&name, row.wall_s, error);
+        let own = kind_of(kind);
+        let label = if own == kind { &scheme } else { &name };
+        for (_, chart) in self.times.iter_mut().filter(|(known, _)| *known == own) {
+            chart.add(label, row.wall_s, error);
         }
         let history = &finished.history;
         let thin = |column: &[f64]| thinned(column, ROWS);
