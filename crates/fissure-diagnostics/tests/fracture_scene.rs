@@ -23,6 +23,12 @@ use fissure_tensor::{Matrix3, Sym};
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::PI;
 
+/// What plates are of.
+const PLATE: Isotropic = Isotropic {
+    density: 2500.0,
+    young: GLASS.young,
+    poisson: GLASS.poisson,
+};
 const HALF: f64 = 0.01;
 const CELL: f64 = HALF / 25.0;
 const RING: Annulus = Annulus {
@@ -30,17 +36,20 @@ const RING: Annulus = Annulus {
     outer: 0.4 * HALF,
 };
 
+/// Of a crack that begins at the plate's side.
+fn mouth() -> CrackSettings {
+    CrackSettings {
+        first: EndState::Mouth,
+        ..CrackSettings::default()
+    }
+}
+
 /// A plate of four times the crack, loaded in tension and shear and then turned.
 fn plate(sigma: f64, tau: f64, turn: f64) -> Scene<2> {
-    let law = Isotropic {
-        density: 2500.0,
-        young: GLASS.young,
-        poisson: GLASS.poisson,
-    };
     let mut scene = Scene::plane(Plane::Strain { thickness: 0.02 });
     let block = Block::new([-2.0 * HALF, -HALF], [2.0 * HALF, HALF]);
     scene
-        .fill("plate", law, &block, &Spacing(0.5 * CELL))
+        .fill("plate", PLATE, &block, &Spacing(0.5 * CELL))
         .unwrap()
         .crack(
             "crack",
@@ -125,18 +134,13 @@ fn both_tips_are_measured_and_grow_where_they_should() {
 fn an_inclined_crack_turns_across_the_load() {
     let (half, h, a) = (0.06, 2e-3, 0.0123);
     let (sine, cosine) = (PI / 6.0).sin_cos();
-    let law = Isotropic {
-        density: 2500.0,
-        young: GLASS.young,
-        poisson: GLASS.poisson,
-    };
     let up = Vector2::new(0.0, 2e6 * half);
     let ends = [[-a * cosine, -a * sine], [a * cosine, a * sine]];
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
     scene
         .fill(
             "plate",
-            law,
+            PLATE,
             &Block::new([-half; 2], [half; 2]),
             &Spacing(0.5 * h),
         )
@@ -198,25 +202,16 @@ fn an_inclined_crack_turns_across_the_load() {
 #[test]
 fn an_edge_crack_runs_through() {
     let (width, half, h) = (0.02, 0.016, 1e-3);
-    let law = Isotropic {
-        density: 2500.0,
-        young: GLASS.young,
-        poisson: GLASS.poisson,
-    };
-    let mouth = CrackSettings {
-        first: EndState::Mouth,
-        ..CrackSettings::default()
-    };
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
     scene
         .fill(
             "plate",
-            law,
+            PLATE,
             &Block::new([0.0, -half], [width, half]),
             &Spacing(0.5 * h),
         )
         .unwrap()
-        .crack("edge", &[[-h, 0.3 * h], [8.2 * h, 0.3 * h]], mouth)
+        .crack("edge", &[[-h, 0.3 * h], [8.2 * h, 0.3 * h]], mouth())
         .unwrap();
     // Pulled in the first step, held then.
     let speed = |t: f64| if t < 1.5 { 1e-6 } else { 0.0 };
@@ -460,22 +455,13 @@ fn energy_release_of_ledgers() {
 /// Ledger of half of a plate with a crack in its middle, in equilibrium with a load that acts in full from the start.
 fn centre_crack(a: f64, h: f64) -> EnergyTotals {
     let (width, height) = (4.0 * HALF, 8.0 * HALF);
-    let law = Isotropic {
-        density: 2500.0,
-        young: GLASS.young,
-        poisson: GLASS.poisson,
-    };
-    let mouth = CrackSettings {
-        first: EndState::Mouth,
-        ..CrackSettings::default()
-    };
     let pull = Vector2::new(0.0, 1e5 * width);
     let block = Block::new([0.0, -height], [width, height]);
     let mut scene = Scene::plane(Plane::Strain { thickness: 1.0 });
     scene
-        .fill("plate", law, &block, &Spacing(0.5 * h))
+        .fill("plate", PLATE, &block, &Spacing(0.5 * h))
         .unwrap()
-        .crack("crack", &[[-h, 0.0], [a, 0.0]], mouth)
+        .crack("crack", &[[-h, 0.0], [a, 0.0]], mouth())
         .unwrap()
         .hold(
             "symmetry",

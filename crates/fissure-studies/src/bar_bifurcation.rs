@@ -11,8 +11,9 @@ use std::path::Path;
 use fissure::io::plot::{LinePlot, Style};
 use fissure_study::{Overrides, Parameter, Parameters, Report as Rows, Study, StudyError};
 
-use crate::bar::drawing::{ROWS, sampled, save};
+use crate::bar::drawing::{ROWS, sampled};
 use crate::bar::{self, Bar, Thinned, break_bar, row};
+use crate::drawing::save;
 use crate::method::on_threads;
 
 /// The study `bar-bifurcation`.

@@ -15,8 +15,9 @@ use fissure_study::{
     Overrides, Parameter, Parameters, Permitted, Report as Rows, SimulationRow, Study, StudyError,
 };
 
-use crate::bar::drawing::{ROWS, sampled, save};
+use crate::bar::drawing::{ROWS, sampled};
 use crate::bar::{self, Bar, Exact, Gauge, OFFSETS, Pull, Thinned, measured};
+use crate::drawing::save;
 use crate::method::{Method, on_threads};
 
 /// The study `bar-embedded`.

@@ -10,8 +10,9 @@ use fissure_study::{
     StudyError, Value,
 };
 
-use crate::bar::drawing::{ROWS, draw_bar, sampled, save};
+use crate::bar::drawing::{ROWS, draw_bar, sampled};
 use crate::bar::{self, BODY, Bar, Finished, OFFSETS, Thinned, break_bar, row};
+use crate::drawing::save;
 use crate::method::on_threads;
 
 /// The study `bar-orientation`.

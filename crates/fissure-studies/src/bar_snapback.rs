@@ -12,8 +12,8 @@ use fissure_study::{
     StudyError,
 };
 
-use crate::bar::drawing::save;
 use crate::bar::{self, Bar, Exact, History, load};
+use crate::drawing::save;
 use crate::method::{Chosen, Method, on_threads};
 
 /// The study `bar-snapback`.

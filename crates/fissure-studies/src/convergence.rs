@@ -6,6 +6,7 @@ use fissure::diagnostics::fit_slope;
 use fissure::io::plot::{LinePlot, Style};
 use fissure::prelude::*;
 
+use crate::drawing::save;
 use fissure_study::{Field, Parameters, Row, SimulationRow, StudyError, Value};
 
 /// Runs that differ in the spacing alone or in the step alone, and what their errors do.
@@ -182,6 +183,11 @@ impl ErrorChart {
         }
     }
 
+    /// An empty chart of errors against the wall time of the runs.
+    pub fn over_time(title: &str, y_label: &str) -> Self {
+        Self::new(title, "wall time [s]", y_label)
+    }
+
     /// The same with markers alone.
     #[must_use]
     pub fn scattered(mut self) -> Self {
@@ -226,8 +232,7 @@ impl ErrorChart {
         if let Some((label, x, errors)) = line {
             plot = plot.series(label, x, errors, Style::Dashed);
         }
-        plot.save(path)
-            .map_err(StudyError::failed(format!("drawing {}", path.display())))
+        save(plot, path)
     }
 
     /// Draws it, unless it is empty.

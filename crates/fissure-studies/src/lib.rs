@@ -9,6 +9,7 @@ mod bar_orientation;
 mod bar_snapback;
 mod compact_tension;
 mod convergence;
+mod drawing;
 mod filling;
 mod laws;
 mod method;

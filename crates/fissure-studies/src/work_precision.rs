@@ -321,7 +321,7 @@ fn draw(
     path: &Path,
 ) -> Result<(), StudyError> {
     let title = format!("Error against run time: {name}");
-    let mut chart = ErrorChart::new(&title, "wall time [s]", measure).scattered();
+    let mut chart = ErrorChart::over_time(&title, measure).scattered();
     for point in points {
         chart.add(&point.group, point.wall_s, point.error);
     }

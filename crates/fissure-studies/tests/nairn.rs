@@ -1,26 +1,24 @@
 //! The quick forms of the studies of Nairn 2017, sec. 3, through the command line.
 #![allow(clippy::unwrap_used)] // A test that cannot go on has failed.
 
-use fissure_studies::studies;
-use fissure_study::execute;
+mod common;
+
+use common::{drawn, number, rows};
 use serde_json::Value;
 
-/// Result rows of a command, as JSON.
-fn rows(study: &str, arguments: &[&str]) -> Vec<Value> {
-    let (mut output, mut messages) = (Vec::new(), Vec::new());
-    let command = ["fissure-studies", study, "--json"];
-    let arguments = command.iter().chain(arguments).copied();
-    let code = execute(&studies(), arguments, &mut output, &mut messages);
-    assert_eq!(code, 0, "{}", String::from_utf8_lossy(&messages));
-    let text = String::from_utf8(output).unwrap();
-    text.lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect()
-}
+/// The pictures of a quick `random-block`.
+const BLOCKS: [&str; 5] = [
+    "strength.png",
+    "curves.png",
+    "correlated-h-1-mm-field.png",
+    "correlated-h-1-mm-failed.png",
+    "error-against-time.png",
+];
 
-/// A number of a row; a missing or non-finite one is NaN, which no bound holds for.
-fn number(row: &Value, group: &str, name: &str) -> f64 {
-    row[group][name].as_f64().unwrap_or(f64::NAN)
+/// Rows of a study that draws these pictures, into a folder of its own.
+fn pictured(study: &str, settings: &[&str], pictures: &[&str]) -> Vec<Value> {
+    let folder = tempfile::tempdir().unwrap();
+    drawn(study, settings, folder.path(), pictures)
 }
 
 fn assert_at_most(row: &Value, group: &str, bounds: &[(&str, f64)]) {
@@ -32,7 +30,13 @@ fn assert_at_most(row: &Value, group: &str, bounds: &[(&str, f64)]) {
 
 #[test]
 fn bars_start_to_fail_at_their_strength() {
-    let rows = rows("uniaxial", &["--quick"]);
+    let pictures = [
+        "stress-plane.png",
+        "stress-space.png",
+        "tension-gimp-xpic-any-4.png",
+        "error-against-time-necking.png",
+    ];
+    let rows = pictured("uniaxial", &["--quick"], &pictures);
     let cases: Vec<&str> = rows
         .iter()
         .map(|row| row["parameters"]["case"].as_str().unwrap())
@@ -71,11 +75,8 @@ fn bars_start_to_fail_at_their_strength() {
 
 #[test]
 fn cases_of_bars_are_chosen_by_name() {
-    let arguments = ["--quick", "--set", "case=compression,tension"];
-    let rows = rows(
-        "uniaxial",
-        &[&arguments[..], &["--set", "strain=0.004"]].concat(),
-    );
+    let settings = ["--quick", "case=compression,tension", "strain=0.004"];
+    let rows = rows("uniaxial", &settings);
     let of = |row: &Value, name: &str| row["parameters"][name].clone();
     let found: Vec<Value> = rows.iter().map(|row| of(row, "case")).collect();
     assert_eq!(found, ["tension", "compression"]);
@@ -95,10 +96,9 @@ fn a_bar_necks_to_the_end_with_other_shapes_and_in_plane_stress() {
     ];
     let mut count = 0;
     for [shape, plane] in kinds {
-        let settings = ["case=necking", shape, plane, "h=0.0015", "length=0.039"];
-        let mut arguments = vec!["--quick"];
-        arguments.extend(settings.iter().flat_map(|set| ["--set", *set]));
-        for row in rows("uniaxial", &arguments) {
+        let necking = ["--quick", "case=necking", "h=0.0015", "length=0.039"];
+        let settings = [&necking[..], &[shape, plane]].concat();
+        for row in rows("uniaxial", &settings) {
             assert_eq!(number(&row, "values", "reached"), 1.0, "{row}");
             assert!(number(&row, "values", "neck") < 0.5, "{row}");
             assert_at_most(&row, "errors", &[("peak", 0.05)]);
@@ -115,15 +115,7 @@ fn a_bar_necks_to_the_end_with_other_shapes_and_in_plane_stress() {
 fn bars_of_rectangular_and_square_section_neck() {
     let rows = rows(
         "uniaxial",
-        &[
-            "--quick",
-            "--set",
-            "case=rectangle,square",
-            "--set",
-            "h=0.002",
-            "--set",
-            "length=0.02",
-        ],
+        &["--quick", "case=rectangle,square", "h=0.002", "length=0.02"],
     );
     assert_eq!(rows.len(), 2);
     for row in &rows {
@@ -138,7 +130,8 @@ fn bars_of_rectangular_and_square_section_neck() {
 
 #[test]
 fn a_notch_grows_in_two_rows() {
-    let rows = rows("edge-notch", &["--quick", "--set", "mode=damage"]);
+    let pictures = ["length.png", "speed.png", "load.png"];
+    let rows = pictured("edge-notch", &["--quick", "mode=damage"], &pictures);
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     let (onset, speed) = (
@@ -160,9 +153,23 @@ fn a_notch_grows_in_two_rows() {
     );
 }
 
+/// Specimens of the document on coarse cells: only of those are errors known.
+#[test]
+fn errors_are_drawn_against_the_time_they_take() {
+    let notch = ["mode=damage", "h=0.0025,0.00125"];
+    let pictures = ["error-against-time.png", "30-MPa-600-h-1.25-stress.png"];
+    let rows = pictured("edge-notch", &notch, &pictures);
+    assert_eq!(rows.len(), 2);
+    for row in &rows {
+        assert_at_most(row, "errors", &[("onset", 0.2)]);
+    }
+    let coating = ["h=0.002", "seed=1", "strain=0.006"];
+    pictured("coating", &coating, &["error-against-time.png"]);
+}
+
 #[test]
 fn a_line_grows_when_j_reaches_the_toughness() {
-    let rows = rows("edge-notch", &["--quick", "--set", "mode=explicit"]);
+    let rows = rows("edge-notch", &["--quick", "mode=explicit"]);
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     // Damage of the same toughness costs 2.2 times as much and starts at 30 µs.
@@ -179,7 +186,8 @@ fn a_line_grows_when_j_reaches_the_toughness() {
 
 #[test]
 fn a_crack_is_arrested_at_another_which_then_grows_across() {
-    let rows = rows("interacting-cracks", &["--quick"]);
+    let pictures = ["paths.png", "explicit-plate.png"];
+    let rows = pictured("interacting-cracks", &["--quick"], &pictures);
     let row = &rows[0];
     let time = |name: &str| number(row, "values", name);
     let (onset, arrest, restart) = (time("onset_us"), time("arrest_us"), time("restart_us"));
@@ -198,7 +206,14 @@ fn a_crack_is_arrested_at_another_which_then_grows_across() {
 
 #[test]
 fn growth_by_damage_costs_two_rows_and_a_wake() {
-    let rows = rows("apparent-toughness", &["--quick"]);
+    let pictures = [
+        "onset.png",
+        "load.png",
+        "explicit-particle-cells-h-1-damage.png",
+        "quasi-static-particle-cells-h-2-damage.png",
+        "error-against-time.png",
+    ];
+    let rows = pictured("apparent-toughness", &["--quick"], &pictures);
     let value = |name| number(&rows[0], "values", name);
     assert!((value("failed_rows") - 2.0).abs() < 0.15, "{}", rows[0]);
     // Each failed row takes the toughness.
@@ -221,10 +236,13 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
 
 #[test]
 fn without_scatter_the_strength_of_a_block_does_not_depend_on_the_grid() {
-    let set = ["field=uncorrelated", "deviation=1e-4", "samples=2"];
-    let mut arguments = vec!["--quick"];
-    arguments.extend(set.iter().flat_map(|set| ["--set", *set]));
-    let rows = rows("random-block", &arguments);
+    let set = [
+        "--quick",
+        "field=uncorrelated",
+        "deviation=1e-4",
+        "samples=2",
+    ];
+    let rows = rows("random-block", &set);
     // What the plate holds, h/length of the block, was missing: 10 % on the coarse grid.
     for row in &rows[..2] {
         let strength = number(row, "values", "mean_over_nominal");
@@ -234,7 +252,8 @@ fn without_scatter_the_strength_of_a_block_does_not_depend_on_the_grid() {
 
 #[test]
 fn a_coating_cracks_several_times() {
-    let rows = rows("coating", &["--quick"]);
+    let pictures = ["cracks.png", "xpic-5-seed-1-1.png"];
+    let rows = pictured("coating", &["--quick"], &pictures);
     assert_eq!(rows.len(), 3, "two runs and their mean");
     for row in &rows {
         let onset = number(row, "values", "onset_strain");
@@ -253,8 +272,8 @@ fn a_coating_cracks_several_times() {
 #[test]
 fn correlation_lowers_the_strength_of_a_block() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().to_str().unwrap();
-    let first = rows("random-block", &["--quick", "--out", out]);
+    let settings = ["--quick"];
+    let first = drawn("random-block", &settings, folder.path(), &BLOCKS);
     let (sets, tests) = first.split_at(4);
     assert_eq!(tests.len(), 4);
     for set in sets {
@@ -272,7 +291,7 @@ fn correlation_lowers_the_strength_of_a_block() {
     }
     // What is on file is not run again, and gives the same rows.
     let samples = std::fs::read_to_string(folder.path().join("samples.txt")).unwrap();
-    let second = rows("random-block", &["--quick", "--out", out]);
+    let second = drawn("random-block", &settings, folder.path(), &BLOCKS);
     let again = std::fs::read_to_string(folder.path().join("samples.txt")).unwrap();
     assert_eq!(samples, again);
     for (one, other) in first.iter().zip(&second) {
@@ -283,7 +302,7 @@ fn correlation_lowers_the_strength_of_a_block() {
 
 #[test]
 fn the_limit_of_every_softening_law_is_that_of_equation_36() {
-    let rows = rows("stability-eta", &["--quick"]);
+    let rows = pictured("stability-eta", &["--quick"], &["pulled.png"]);
     assert_eq!(rows.len(), 14);
     for row in &rows {
         assert_at_most(

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{number, rows};
+use common::{drawn, number, rows};
 use serde_json::Value;
 
 /// The order of a measure over `h` in the row of orders.
@@ -314,6 +314,26 @@ fn a_crack_that_stress_opens_has_the_profile_of_sneddon() {
     let settings = ["case=sneddon", "h=0.004", "part=0.5"];
     let errors = [("opening", 0.03), ("volume", 0.03), ("k1", 0.02)];
     domains(&settings, &errors, 0.005);
+}
+
+#[test]
+fn every_case_has_its_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = [
+        "case=centre,sneddon",
+        "h=0.00625",
+        "part=0.5",
+        "solver=quasi-static",
+    ];
+    let pictures = [
+        "field-centre.png",
+        "field-sneddon.png",
+        "history-sneddon.png",
+        "error-against-h.png",
+        "error-against-time.png",
+    ];
+    let rows = drawn("stress-intensity", &settings, folder.path(), &pictures);
+    assert_eq!(rows.len(), 2);
 }
 
 /// Faces in touch that part node by node from the loaded end had stayed together over half of the crack, under any load.

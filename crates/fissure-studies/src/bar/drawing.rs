@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fissure::io::plot::{LinePlot, ScatterPlot};
+use fissure::io::plot::ScatterPlot;
 use fissure::io::table::{Cell, Table};
 use fissure::prelude::*;
 
@@ -65,10 +65,4 @@ pub(crate) fn draw_bar(bar: &Bar, scene: &Scene<2>, path: &Path) -> Result<(), S
         .labels("x [m]", "y [m]")
         .save(path)
         .map_err(StudyError::failed("drawing the bar"))
-}
-
-/// Draws a plot to a file.
-pub(crate) fn save(plot: LinePlot, path: &Path) -> Result<(), StudyError> {
-    plot.save(path)
-        .map_err(StudyError::failed(format!("drawing {}", path.display())))
 }

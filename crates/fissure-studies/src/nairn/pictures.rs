@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use fissure::io::plot::{LinePlot, ScatterPlot};
+use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::io::table::{Cell, Table};
 use fissure::prelude::*;
 use fissure_study::StudyError;
+
+use crate::drawing::save;
 
 /// Rows of a curve in files and pictures.
 pub(super) const ROWS: usize = 400;
@@ -33,10 +35,41 @@ pub(super) fn write_columns(path: &Path, columns: &[(&str, &[f64])]) -> Result<(
     table.write(path).map_err(failed())
 }
 
-/// Draws a figure.
-pub(super) fn save(plot: LinePlot<'_>, path: &Path) -> Result<(), StudyError> {
-    plot.save(path)
-        .map_err(StudyError::failed(format!("drawing {}", path.display())))
+/// Load over displacement of several runs in one picture.
+#[derive(Default)]
+pub(super) struct Loads(Vec<(String, Vec<f64>, Vec<f64>)>);
+
+impl Loads {
+    /// Adds a curve of displacement, m, and load, N, and writes it as a table.
+    pub(super) fn add(
+        &mut self,
+        label: &str,
+        curve: &[[f64; 2]],
+        path: &Path,
+    ) -> Result<(), StudyError> {
+        let column = |axis: usize| {
+            let whole: Vec<f64> = curve.iter().map(|point| point[axis]).collect();
+            thinned(&whole, ROWS)
+        };
+        let (way, load) = (column(0), column(1));
+        write_columns(path, &[("displacement [m]", &way), ("load [N]", &load)])?;
+        self.0.push((label.to_owned(), way, load));
+        Ok(())
+    }
+
+    /// Draws them, unless there are none.
+    pub(super) fn save(&self, path: &Path) -> Result<(), StudyError> {
+        if self.0.iter().all(|(_, way, _)| way.is_empty()) {
+            return Ok(());
+        }
+        let mut plot = LinePlot::new("Load over displacement")
+            .x_label("displacement of the ends [m]")
+            .y_label("load [N]");
+        for (label, way, load) in &self.0 {
+            plot = plot.series(label, way.as_slice(), load.as_slice(), Style::Line);
+        }
+        save(plot, path)
+    }
 }
 
 /// What is drawn of particles: position in the plane of the picture and a value.

@@ -206,6 +206,13 @@ impl Plate {
         Ok(scene)
     }
 
+    /// How far the ends have gone apart, m, and the load that they carry, N.
+    pub(super) fn load(&self, scene: &Scene<2>) -> [f64; 2] {
+        let reaction = |end| scene.reaction(end).map_or(f64::NAN, |reaction| reaction.y);
+        let load = 0.5 * (reaction("top") - reaction("bottom"));
+        [2.0 * self.speed * scene.load_time(), load]
+    }
+
     fn empty(&self) -> Scene<2> {
         Scene::plane(Plane::Strain {
             thickness: THICKNESS,

@@ -13,7 +13,7 @@ use fissure_study::{
     Measures, Overrides, Parameter, Parameters, Permitted, Report, SimulationRow, Study, StudyError,
 };
 
-use super::pictures::save;
+use crate::drawing::save;
 use fissure::io::plot::{LinePlot, Style};
 
 /// The double exponential: α²β = 1, where it is steepest at the start.
@@ -25,6 +25,9 @@ const DOUBLE: softening::DoubleExponential = softening::DoubleExponential {
 const SAMPLES: usize = 20_000;
 /// Openings beyond this are not looked at where a curve has no end.
 const FARTHEST: f64 = 40.0;
+
+/// Strain over that at onset up to which the picture goes: beyond it next to nothing is left.
+const SHOWN: f64 = 6.0;
 
 /// The study `stability-eta`.
 pub struct StabilityEta;
@@ -116,7 +119,8 @@ impl Study for StabilityEta {
         };
         let mut plot = LinePlot::new("A point pulled at 99 % of its limit")
             .x_label("strain over that at onset [1]")
-            .y_label("traction over strength [1]");
+            .y_label("traction over strength [1]")
+            .x_range(0.0, SHOWN);
         for (label, (x, y)) in &curves {
             plot = plot.series(label, x, y, Style::Line);
         }

@@ -16,7 +16,7 @@ use fissure_study::{
     Overrides, Parameter, Parameters, Permitted, Report as Rows, Study, StudyError,
 };
 
-use crate::bar::drawing::save;
+use crate::drawing::save;
 use crate::method::on_threads;
 
 use growth::Growth;

@@ -30,7 +30,7 @@ use fissure::prelude::*;
 use fissure_study::{Overrides, Parameter, Parameters, Permitted, StudyError};
 
 use crate::method::{self, Method};
-use crate::problem::{Outcome, Problem, run_to};
+use crate::problem::{History, Outcome, Problem, run_to};
 
 use self::plates::plate;
 
@@ -178,6 +178,10 @@ impl Problem for StressIntensity {
         "k1"
     }
 
+    fn alike(&self) -> &'static [&'static str] {
+        &["part", "angle", "friction"]
+    }
+
     fn simulate(&self, case: &Parameters, method: &Method) -> Result<Outcome, StudyError> {
         let h = method.spacing;
         if case.choice("case")? == "step" {
@@ -220,11 +224,19 @@ impl Problem for StressIntensity {
         if case.choice("case")? == "sneddon" {
             profile(&mut outcome);
         }
-        let stress = outcome.scene.bodies()[0].motion().stress;
-        let field = stress.iter().map(|s| s.yy() / STRESS).collect();
-        outcome.field = Some(("σ_yy over the far stress [1]", field));
+        outcome.field = Some(upright_stress(&outcome.scene));
         Ok(outcome)
     }
+}
+
+/// What pictures show: the stress along the load, cut off near the tip so that it can be seen elsewhere.
+fn upright_stress(scene: &Scene<2>) -> (&'static str, Vec<f64>) {
+    let stress = scene.bodies()[0].motion().stress;
+    let shown = stress.iter().map(|s| (s.yy() / STRESS).clamp(-2.0, 3.0));
+    (
+        "σ_yy over the far stress, from -2 to 3 [1]",
+        shown.collect(),
+    )
 }
 
 /// Intensities, J and how far J depends on the domain.
@@ -317,17 +329,24 @@ fn profile(outcome: &mut Outcome) {
     let most = 4.0 * STRESS / ELASTIC.effective_modulus();
     let jumps = opening_profile(crack, End::Last);
     let (mut square, mut scale, mut volume) = (0.0, 0.0, 0.0);
+    let mut samples = Vec::new();
     for jump in &jumps {
         let x = jump.distance - half;
         let exact = most * (half * half - x * x).max(0.0).sqrt();
         square += (jump.opening - exact).powi(2);
         scale += exact * exact;
+        samples.push([x / half, jump.opening, exact]);
     }
     for pair in jumps.windows(2) {
         volume += 0.5 * (pair[0].opening + pair[1].opening) * (pair[1].distance - pair[0].distance);
     }
     let exact_volume = 0.5 * PI * most * half * half;
     outcome.errors.insert("opening", (square / scale).sqrt());
+    outcome.history = Some(History {
+        x_label: "place over half the length of the crack [1]",
+        y_label: "opening [m]",
+        samples,
+    });
     outcome
         .errors
         .insert("volume", (volume / exact_volume - 1.0).abs());

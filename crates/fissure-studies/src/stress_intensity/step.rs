@@ -16,7 +16,7 @@ use fissure::prelude::*;
 use fissure_study::{Parameters, StudyError};
 
 use super::plates::{mouth, pull};
-use super::{BODY, CRACK, ELASTIC, STEEL, STRESS};
+use super::{BODY, CRACK, ELASTIC, STEEL, STRESS, upright_stress};
 use crate::method::Method;
 use crate::problem::{History, Outcome};
 
@@ -82,9 +82,7 @@ pub(super) fn simulate(case: &Parameters, method: &Method) -> Result<Outcome, St
         y_label: "K_I [Pa √m]",
         samples,
     });
-    let stress = outcome.scene.bodies()[0].motion().stress;
-    let field = stress.iter().map(|s| s.yy() / STRESS).collect();
-    outcome.field = Some(("σ_yy over the step [1]", field));
+    outcome.field = Some(upright_stress(&outcome.scene));
     Ok(outcome)
 }
 

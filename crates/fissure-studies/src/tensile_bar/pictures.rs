@@ -7,8 +7,10 @@ use fissure::io::vtk::{Compression, ParticleSeries, Series};
 
 use fissure_study::{Parameters, StudyError};
 
-use crate::bar::drawing::{ROWS, draw_bar, sampled, save};
+use crate::bar::drawing::{ROWS, draw_bar, sampled};
 use crate::bar::{Bar, Exact, Finished, Thinned, run_length};
+use crate::convergence::ErrorChart;
+use crate::drawing::save;
 
 /// Curves of one picture: more would not be told apart.
 const CURVES: usize = 6;
@@ -128,26 +130,12 @@ impl Pictures {
 
     /// Error of the load against wall time: one line per solver and shape.
     fn draw_error_against_time(&self, path: &Path) -> Result<(), StudyError> {
-        let mut plot = LinePlot::new("Error against run time")
-            .x_label("wall time [s]")
-            .y_label("load_l2 [1]")
-            .log_x()
-            .log_y();
-        let mut lines: Vec<(String, Vec<f64>, Vec<f64>)> = Vec::new();
-        for run in self.runs.iter().filter(|run| run.error.is_finite()) {
+        let mut chart = ErrorChart::over_time("Error against run time", "load_l2");
+        for run in &self.runs {
             let label = format!("{}, {}", run.solver, run.shape);
-            match lines.iter_mut().find(|(known, ..)| *known == label) {
-                Some((_, times, errors)) => {
-                    times.push(run.wall_s);
-                    errors.push(run.error);
-                }
-                None => lines.push((label, vec![run.wall_s], vec![run.error])),
-            }
+            chart.add(&label, run.wall_s, run.error);
         }
-        for (label, times, errors) in &lines {
-            plot = plot.series(label, times, errors, Style::LineAndMarkers);
-        }
-        save(plot, path)
+        chart.save(path)
     }
 
     /// The last, finest run of each solver, shape and angle; linear functions first.

@@ -1,6 +1,8 @@
 //! Studies run through the command line, and their rows.
 #![allow(clippy::unwrap_used, dead_code)] // Each test binary uses its part.
 
+use std::path::Path;
+
 use fissure_studies::studies;
 use fissure_study::execute;
 use serde_json::Value;
@@ -21,6 +23,17 @@ pub fn rows(study: &str, settings: &[&str]) -> Vec<Value> {
     text.lines()
         .map(|line| serde_json::from_str(line).unwrap())
         .collect()
+}
+
+/// The same with files in a folder, among them these pictures.
+pub fn drawn(study: &str, settings: &[&str], folder: &Path, pictures: &[&str]) -> Vec<Value> {
+    let out = format!("--out={}", folder.to_str().unwrap());
+    let rows = rows(study, &[settings, &[&out]].concat());
+    for picture in pictures {
+        let bytes = std::fs::read(folder.join(picture)).unwrap_or_default();
+        assert!(bytes.starts_with(b"\x89PNG"), "{study} drew no {picture}");
+    }
+    rows
 }
 
 /// A number of a row; a missing or non-finite one is NaN, which no bound holds for.

@@ -12,6 +12,7 @@ use crate::nairn::drive::{Drive, drive, energies, row};
 use crate::nairn::failed::Places;
 use crate::nairn::many;
 use crate::nairn::numerics::{Numerics, check_whole_cells};
+use crate::nairn::pictures::Snapshot;
 use crate::nairn::plate::{BODY, Notch, Plate, THICKNESS};
 
 /// Most steps of a quasi-static run.
@@ -19,10 +20,14 @@ const MOST_STEPS: u64 = 4000;
 /// Steps of a quasi-static run in which the plate would come to the J that its toughness is, did nothing soften.
 const RISE: f64 = 10.0;
 
-struct Finished {
-    row: SimulationRow,
+pub(super) struct Finished {
+    pub row: SimulationRow,
     /// Growth, m, and J far from the tip over the toughness, of a quasi-static run.
-    resistance: Vec<[f64; 2]>,
+    pub resistance: Vec<[f64; 2]>,
+    /// How far the ends have gone apart, m, and their load, N, after each step.
+    pub load: Vec<[f64; 2]>,
+    /// The damage at the end.
+    pub damage: Snapshot,
     stopped: Option<String>,
 }
 
@@ -34,22 +39,23 @@ struct Seen {
     onset: Option<(f64, f64)>,
     release: f64,
     resistance: Vec<[f64; 2]>,
+    load: Vec<[f64; 2]>,
 }
 
 pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
     for case in cases {
         check_whole_cells(case, &["width", "height"])?;
     }
-    let mut pictures = Pictures::default();
+    let mut pictures = Pictures::new(rows.out_dir());
     many::in_order(cases, rows, pull, |rows, case, finished| {
-        pictures.add(case, &finished.row, &finished.resistance)?;
+        pictures.add(case, &finished)?;
         rows.row(finished.row)?;
         finished.stopped.map_or(Ok(()), |reason| {
             rows.note(&format!("the run above stopped early: {reason}"))?;
             Ok(())
         })
     })?;
-    pictures.finish(rows.out_dir())
+    pictures.finish()
 }
 
 fn pull(case: &Parameters) -> Result<Finished, StudyError> {
@@ -90,9 +96,12 @@ fn pull(case: &Parameters) -> Result<Finished, StudyError> {
         row.values.insert("far_j_grown", last[1]);
     }
     row.values = energies(row.values, &scene);
+    let title = format!("Damage at a growth of {:.1} mm", 1e3 * seen.costs.growth());
     Ok(Finished {
         row,
         resistance: seen.resistance,
+        load: seen.load,
+        damage: Snapshot::of(title, &scene, "normal_damage", None),
         stopped: done.stopped,
     })
 }
@@ -118,6 +127,7 @@ fn step(
         },
     );
     let done = drive(scene, solver.as_mut(), end, |scene, report| {
+        seen.load.push(plate.load(scene));
         // The means of ten steps.
         let due = seen.onset.is_none() && report.step % 10 == 0;
         if due && rates.look(scene, BODY).is_err() {
@@ -159,6 +169,7 @@ fn follow(
         ..Seen::default()
     };
     let done = drive(scene, solver.as_mut(), f64::INFINITY, |scene, report| {
+        seen.load.push(plate.load(scene));
         if let Some(growth) = seen.costs.look(scene, places, plate) {
             let release = release(scene, plate, None, radius);
             seen.resistance.push([growth, release]);

@@ -7,7 +7,8 @@ use fissure_study::{Parameters, StudyError};
 
 use super::run::Finished;
 use crate::convergence::ErrorChart;
-use crate::nairn::pictures::{save, write_columns};
+use crate::drawing::save;
+use crate::nairn::pictures::write_columns;
 
 pub(super) struct Pictures {
     folder: Option<PathBuf>,
@@ -25,9 +26,8 @@ impl Pictures {
             reference: reference.to_vec(),
             groups: Vec::new(),
             end: 0.0,
-            times: ErrorChart::new(
+            times: ErrorChart::over_time(
                 "Error of the count, over what is allowed, against run time",
-                "wall time [s]",
                 "largest difference of the count",
             )
             .scattered(),

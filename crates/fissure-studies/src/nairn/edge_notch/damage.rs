@@ -3,7 +3,7 @@
 use fissure_study::{Parameters, StudyError};
 
 use super::growth::Growth;
-use super::run::{Finished, draw_once, row_of};
+use super::run::{Finished, Seen, row_of};
 use crate::nairn::drive::drive;
 use crate::nairn::failed::Places;
 use crate::nairn::numerics::Numerics;
@@ -24,7 +24,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
         .body(BODY)
         .map(Places::of)
         .ok_or_else(|| StudyError::failed("finding the plate")("no such body"))?;
-    let (mut growth, mut snapshot) = (Growth::default(), None);
+    let (mut growth, mut seen) = (Growth::default(), Seen::default());
     let through = plate.width - 2.0 * plate.spacing;
     let done = drive(&mut scene, solver.as_mut(), end, |scene, report| {
         let Some(body) = scene.body(BODY) else {
@@ -42,7 +42,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
             growth.push(report.time, tip);
         }
         if drawing {
-            draw_once(&mut snapshot, scene, report.time);
+            seen.look(&plate, scene);
         }
         !(tip > through)
     })?;
@@ -57,7 +57,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
     Ok(Finished {
         row,
         growth,
-        snapshot,
+        seen,
         stopped: done.stopped,
     })
 }

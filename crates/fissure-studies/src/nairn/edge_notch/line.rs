@@ -3,7 +3,7 @@
 use fissure_study::{Parameters, StudyError};
 
 use super::growth::Growth;
-use super::run::{Finished, draw_once, row_of};
+use super::run::{Finished, Seen, row_of};
 use crate::nairn::drive::drive_growing;
 use crate::nairn::numerics::Numerics;
 use crate::nairn::plate::{Notch, Plate};
@@ -16,7 +16,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
     let mut scene = plate.elastic()?;
     let mut solver = numerics.solver(plate.grid(end)?)?;
     let mut tips = Tips::of(case, &plate)?;
-    let (mut growth, mut snapshot) = (Growth::default(), None);
+    let (mut growth, mut seen) = (Growth::default(), Seen::default());
     let through = plate.width - 2.0 * plate.spacing;
     let done = drive_growing(&mut scene, solver.as_mut(), end, |scene, report| {
         let mut tip = f64::NAN;
@@ -25,7 +25,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
             growth.push(report.time, tip);
         }
         if drawing {
-            draw_once(&mut snapshot, scene, report.time);
+            seen.look(&plate, scene);
         }
         Ok(!(tip > through))
     })?;
@@ -33,7 +33,7 @@ pub(super) fn pull(case: &Parameters, drawing: bool) -> Result<Finished, StudyEr
     Ok(Finished {
         row,
         growth,
-        snapshot,
+        seen,
         stopped: done.stopped,
     })
 }

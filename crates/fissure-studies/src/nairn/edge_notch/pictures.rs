@@ -1,4 +1,5 @@
-//! Crack length and speed against time (figs 5B, 6C), stress about the tip (fig. 6B), if asked for.
+//! Crack length and speed against time (figs 5B, 6C), stress about the tip (fig. 6B), load over the distance of the ends,
+//! if asked for.
 
 use std::path::{Path, PathBuf};
 
@@ -8,13 +9,57 @@ use fissure_study::{Parameters, StudyError};
 use super::growth::Growth;
 use super::run::Finished;
 use crate::convergence::ErrorChart;
-use crate::nairn::pictures::{save, write_columns};
+use crate::drawing::save;
+use crate::nairn::pictures::{Loads, write_columns};
 use crate::nairn::reference::Curve;
 
 pub(super) struct Pictures {
     folder: Option<PathBuf>,
     runs: Vec<(String, Growth)>,
+    loads: Loads,
     times: ErrorChart,
+}
+
+/// What a run is called: without its spacing, with it, and in its files.
+struct Names {
+    scheme: String,
+    label: String,
+    file: String,
+}
+
+impl Names {
+    fn of(case: &Parameters) -> Result<Self, StudyError> {
+        let toughness = case.number("toughness")?;
+        let (mut scheme, mut file) = if case.choice("mode")? == "explicit" {
+            let scheme = format!("line, {toughness:.0} J/m²");
+            (scheme, format!("line-{toughness:.0}"))
+        } else {
+            let strength = 1e-6 * case.number("strength")?;
+            let scheme = format!("{strength:.0} MPa, {toughness:.0} J/m²");
+            (scheme, format!("{strength:.0}-MPa-{toughness:.0}"))
+        };
+        for other in ["band", "notch", "line", "transfer", "shape"] {
+            if case.varying().contains(&other) {
+                let value = case.choice(other)?;
+                let usual = matches!(value, "particle" | "gap" | "cells" | "xpic" | "gimp");
+                if !usual {
+                    scheme = format!("{scheme}, {value}");
+                }
+                file = format!("{file}-{value}");
+            }
+        }
+        let mut label = scheme.clone();
+        if case.varying().contains(&"h") {
+            let h = 1e3 * case.number("h")?;
+            label = format!("{scheme}, h = {h} mm");
+            file = format!("{file}-h-{h}");
+        }
+        Ok(Self {
+            scheme,
+            label,
+            file,
+        })
+    }
 }
 
 impl Pictures {
@@ -22,12 +67,11 @@ impl Pictures {
         Self {
             folder: folder.map(Path::to_path_buf),
             runs: Vec::new(),
-            times: ErrorChart::new(
+            loads: Loads::default(),
+            times: ErrorChart::over_time(
                 "Error of the onset (54 µs) against run time",
-                "wall time [s]",
                 "error of the onset",
-            )
-            .scattered(),
+            ),
         }
     }
 
@@ -35,45 +79,24 @@ impl Pictures {
         let Some(folder) = &self.folder else {
             return Ok(());
         };
-        let (strength, toughness) = (case.number("strength")?, case.number("toughness")?);
-        let explicit = case.choice("mode")? == "explicit";
-        let (mut label, mut name) = if explicit {
-            let label = format!("line, {toughness:.0} J/m²");
-            (label, format!("line-{toughness:.0}"))
-        } else {
-            let strength = 1e-6 * strength;
-            let label = format!("{strength:.0} MPa, {toughness:.0} J/m²");
-            (label, format!("{strength:.0}-MPa-{toughness:.0}"))
-        };
-        if case.varying().contains(&"h") {
-            let h = 1e3 * case.number("h")?;
-            label = format!("{label}, h = {h} mm");
-            name = format!("{name}-h-{h}");
-        }
-        for other in ["band", "notch", "line", "transfer", "shape"] {
-            if case.varying().contains(&other) {
-                let value = case.choice(other)?;
-                let usual = matches!(value, "particle" | "gap" | "cells" | "xpic" | "gimp");
-                if !usual {
-                    label = format!("{label}, {value}");
-                }
-                name = format!("{name}-{value}");
-            }
-        }
+        let names = Names::of(case)?;
+        let file = |ending: &str| folder.join(format!("{}{ending}", names.file));
         let growth = &finished.growth;
         write_columns(
-            &folder.join(format!("{name}.csv")),
+            &file(".csv"),
             &[("time [s]", &growth.time), ("tip [m]", &growth.tip)],
         )?;
-        if let Some(snapshot) = &finished.snapshot {
-            let path = folder.join(format!("{name}-stress.png"));
+        let loads = &finished.seen.load;
+        self.loads.add(&names.label, loads, &file("-load.csv"))?;
+        if let Some(snapshot) = &finished.seen.snapshot {
             let size = 0.5 * case.number("h")?;
-            snapshot.draw("σ_yy [Pa]", (0.0, strength), size, &path)?;
+            let range = (0.0, case.number("strength")?);
+            snapshot.draw("σ_yy [Pa]", range, size, &file("-stress.png"))?;
         }
         let row = &finished.row;
         let error = row.errors.get("onset").unwrap_or(f64::NAN);
-        self.times.add(&label, row.wall_s, error);
-        self.runs.push((label, growth.clone()));
+        self.times.add(&names.scheme, row.wall_s, error);
+        self.runs.push((names.label, growth.clone()));
         Ok(())
     }
 
@@ -124,6 +147,7 @@ impl Pictures {
             );
         save(length, &folder.join("length.png"))?;
         save(speed, &folder.join("speed.png"))?;
+        self.loads.save(&folder.join("load.png"))?;
         self.times.save(&folder.join("error-against-time.png"))
     }
 }

@@ -23,8 +23,29 @@ const REFERENCE: [(f64, f64); 2] = [(54.5566e-6, 571.0), (55.1e-6, 480.0)];
 pub(super) struct Finished {
     pub row: SimulationRow,
     pub growth: Growth,
-    pub snapshot: Option<Snapshot>,
+    pub seen: Seen,
     pub stopped: Option<String>,
+}
+
+/// What pictures show of a run beside the growth.
+#[derive(Default)]
+pub(super) struct Seen {
+    /// The stress at the time of the document's figure.
+    pub snapshot: Option<Snapshot>,
+    /// How far the ends have gone apart, m, and their load, N, after each step.
+    pub load: Vec<[f64; 2]>,
+}
+
+impl Seen {
+    /// Looks at a scene after a step.
+    pub(super) fn look(&mut self, plate: &Plate, scene: &Scene<2>) {
+        self.load.push(plate.load(scene));
+        let time = scene.time();
+        if self.snapshot.is_none() && time >= DRAWN {
+            let title = format!("Axial stress at {:.0} µs", 1e6 * time);
+            self.snapshot = Some(Snapshot::of_stress(title, scene, 1));
+        }
+    }
 }
 
 pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
@@ -49,14 +70,6 @@ pub(super) fn run(cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), Study
         },
     )?;
     pictures.finish()
-}
-
-/// The stress in a scene at the time of the document's figure, once.
-pub(super) fn draw_once(snapshot: &mut Option<Snapshot>, scene: &Scene<2>, time: f64) {
-    if snapshot.is_none() && time >= DRAWN {
-        let title = format!("Axial stress at {:.0} µs", 1e6 * time);
-        *snapshot = Some(Snapshot::of_stress(title, scene, 1));
-    }
 }
 
 /// A row with onset, speed, length and energies.

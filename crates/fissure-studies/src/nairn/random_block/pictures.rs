@@ -1,5 +1,5 @@
 //! A field and a failed block (fig. 9), mean and deviation against the grid (fig. 10), all curves on
-//! the finest grid (fig. 11).
+//! the finest grid (fig. 11), and how the interval of the mean shrinks with the time that samples take.
 
 use std::path::Path;
 
@@ -7,7 +7,9 @@ use fissure::io::plot::{LinePlot, Style};
 use fissure_study::StudyError;
 
 use super::run::Set;
-use crate::nairn::pictures::save;
+use super::statistics::Moments;
+use crate::convergence::ErrorChart;
+use crate::drawing::save;
 
 const FIELDS: [&str; 2] = ["uncorrelated", "correlated"];
 
@@ -25,7 +27,29 @@ pub(super) fn draw(folder: &Path, sets: &[Set]) -> Result<(), StudyError> {
         }
     }
     strengths(folder, sets)?;
-    curves(folder, sets)
+    curves(folder, sets)?;
+    intervals(folder, sets)
+}
+
+/// Half the 95 % interval of the mean over the mean, of ever more samples, against the time that they took.
+fn intervals(folder: &Path, sets: &[Set]) -> Result<(), StudyError> {
+    let mut chart = ErrorChart::over_time(
+        "Interval of the mean strength against run time",
+        "half the 95 % interval over the mean",
+    );
+    for set in sets {
+        let label = format!("{}, h = {} mm", set.field(), 1e3 * set.spacing());
+        let (mut strengths, mut spent) = (Vec::new(), 0.0);
+        for sample in set.all() {
+            strengths.push(sample.strength);
+            spent += sample.wall_s;
+            if strengths.len() > 1 {
+                let moments = Moments::of(&strengths);
+                chart.add(&label, spent, moments.mean_interval() / moments.mean);
+            }
+        }
+    }
+    chart.save(&folder.join("error-against-time.png"))
 }
 
 /// Mean and one standard deviation to either side.

@@ -8,15 +8,33 @@ use fissure_study::{Parameters, StudyError};
 use super::bar::Bar;
 use super::run::{Finished, reference};
 use crate::convergence::ErrorChart;
+use crate::drawing::save;
 use crate::nairn::numerics::Numerics;
-use crate::nairn::pictures::{ROWS, save, thinned, write_columns};
+use crate::nairn::pictures::{ROWS, thinned, write_columns};
 use crate::nairn::reference::Curve;
 
 pub(super) struct Pictures {
     folder: Option<PathBuf>,
     curves: Vec<(String, String, Vec<f64>, Vec<f64>)>,
     references: Vec<(String, Vec<f64>, Vec<f64>)>,
-    times: ErrorChart,
+    /// Of each kind of bar: they are worth a picture each.
+    times: [(&'static str, ErrorChart); KINDS.len()],
+}
+
+/// Kinds of bars that are compared among themselves.
+const KINDS: [&str; 4] = ["tension", "necking", "compression", "space"];
+
+/// The kind of a case.
+fn kind_of(case: &str) -> &str {
+    match case {
+        "rectangle" | "square" | "circle" => "space",
+        other => other,
+    }
+}
+
+fn chart(kind: &str) -> ErrorChart {
+    let title = format!("Error of the peak load against run time: {kind}");
+    ErrorChart::over_time(&title, "error of the peak").scattered()
 }
 
 impl Pictures {
@@ -25,12 +43,7 @@ impl Pictures {
             folder: folder.map(Path::to_path_buf),
             curves: Vec::new(),
             references: Vec::new(),
-            times: ErrorChart::new(
-                "Error of the peak load against run time",
-                "wall time [s]",
-                "error of the peak",
-            )
-            .scattered(),
+            times: KINDS.map(|kind| (kind, chart(kind))),
         }
     }
 
@@ -46,19 +59,20 @@ impl Pictures {
             return Ok(());
         };
         let kind = case.choice("case")?;
-        let mut name = format!(
-            "{kind}-{}-{}",
-            case.choice("shape")?,
-            case.choice("transfer")?
-        );
+        let mut scheme = format!("{}-{}", case.choice("shape")?, case.choice("transfer")?);
         for other in ["plane", "band", "measure", "planes", "cracks"] {
             if case.varying().contains(&other) {
-                name = format!("{name}-{}", case.choice(other)?);
+                scheme = format!("{scheme}-{}", case.choice(other)?);
             }
         }
+        let name = format!("{kind}-{scheme}");
         let row = &finished.row;
         let error = row.errors.get("peak").unwrap_or(f64::NAN);
-        self.times.add(&name, row.wall_s, error);
+        let own = kind_of(kind);
+        let label = if own == kind { &scheme } else { &name };
+        for (_, chart) in self.times.iter_mut().filter(|(known, _)| *known == own) {
+            chart.add(label, row.wall_s, error);
+        }
         let history = &finished.history;
         let thin = |column: &[f64]| thinned(column, ROWS);
         let (strain, stress) = (thin(&history.strain), thin(&history.stress));
@@ -110,9 +124,12 @@ impl Pictures {
         }
         let plane = |k: &str| matches!(k, "tension" | "necking" | "compression");
         self.draw("stress-plane.png", folder, &plane, true)?;
-        let solid = |k: &str| matches!(k, "rectangle" | "square" | "circle");
+        let solid = |k: &str| kind_of(k) == "space";
         self.draw("stress-space.png", folder, &solid, true)?;
-        self.times.save(&folder.join("error-against-time.png"))
+        for (kind, chart) in &self.times {
+            chart.save(&folder.join(format!("error-against-time-{kind}.png")))?;
+        }
+        Ok(())
     }
 
     fn draw(

@@ -1,9 +1,10 @@
 //! A problem with a known answer as a study: rows with errors, observed orders, pictures.
 
+mod pictures;
+
 use std::time::Instant;
 
 use fissure::diagnostics::{EnergyBalance, state_hash};
-use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::prelude::*;
 
 use fissure_study::{
@@ -11,8 +12,10 @@ use fissure_study::{
     StudyError,
 };
 
-use crate::convergence::{ErrorChart, SeriesSet};
+use crate::convergence::SeriesSet;
 use crate::method::{Method, on_threads};
+
+use self::pictures::Pictures;
 
 /// A problem whose answer is known.
 pub trait Problem: Sync {
@@ -30,6 +33,12 @@ pub trait Problem: Sync {
 
     /// The error that the pictures show.
     fn leading_error(&self) -> &'static str;
+
+    /// Parameters, beside the spacing, whose values a chart of errors does not tell apart. If there are any, its runs are
+    /// marks without lines.
+    fn alike(&self) -> &'static [&'static str] {
+        &[]
+    }
 
     /// Runs one case.
     ///
@@ -62,19 +71,6 @@ pub struct History {
     pub y_label: &'static str,
     /// Place, found and exact.
     pub samples: Vec<[f64; 3]>,
-}
-
-impl History {
-    fn save(&self, title: &str, path: &std::path::Path) -> Result<(), StudyError> {
-        let column = |k: usize| self.samples.iter().map(|s| s[k]).collect::<Vec<_>>();
-        LinePlot::new(title)
-            .x_label(self.x_label)
-            .y_label(self.y_label)
-            .series("found", column(0), column(1), Style::Line)
-            .series("exact", column(0), column(2), Style::Dashed)
-            .save(path)
-            .map_err(StudyError::failed("drawing the history"))
-    }
 }
 
 impl Outcome {
@@ -193,11 +189,8 @@ impl<P: Problem> Study for Verification<P> {
     }
 
     fn run(&self, cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {
-        let leading = self.0.leading_error();
         let mut series = SeriesSet::new(self.0.name());
-        let mut over_h = ErrorChart::new("Error against spacing", "h [m]", leading);
-        let mut over_time = ErrorChart::new("Error against run time", "wall time [s]", leading);
-        let (mut finest, mut finest_history) = (f64::INFINITY, f64::INFINITY);
+        let mut pictures = Pictures::of(&self.0, rows.out_dir());
         for (number, case) in cases.iter().enumerate() {
             let (at, count) = (number + 1, cases.len());
             rows.progress(&format!("{at} of {count}: {}", case.label()));
@@ -210,38 +203,12 @@ impl<P: Problem> Study for Verification<P> {
             };
             let row = self.row(case, &outcome);
             series.add(case, &row, &outcome.scene);
-            let error = row.errors.get(leading).unwrap_or(f64::NAN);
-            let label = case.label_without(&["h"]);
-            over_h.add(&label, row.h, error);
-            over_time.add(&label, row.wall_s, error);
-            if let (Some(folder), Some((label, values)), true) =
-                (rows.out_dir(), &outcome.field, row.h < finest)
-            {
-                finest = row.h;
-                let body = &outcome.scene.bodies()[0];
-                let points: Vec<[f64; 2]> =
-                    body.motion().position.iter().map(|x| [x.x, x.y]).collect();
-                ScatterPlot::new(self.0.name(), points)
-                    .colour(label, values.as_slice())
-                    .particle_size(0.5 * row.h)
-                    .save(folder.join("field.png"))
-                    .map_err(StudyError::failed("drawing the field"))?;
-            }
-            if let (Some(folder), Some(history), true) =
-                (rows.out_dir(), &outcome.history, row.h < finest_history)
-            {
-                finest_history = row.h;
-                history.save(self.0.name(), &folder.join("history.png"))?;
-            }
+            pictures.add(case, &row, &outcome)?;
             rows.row(row)?;
         }
         for order in series.orders() {
             rows.row(order)?;
         }
-        if let Some(folder) = rows.out_dir() {
-            over_h.save(&folder.join("error-against-h.png"))?;
-            over_time.save(&folder.join("error-against-time.png"))?;
-        }
-        Ok(())
+        pictures.finish()
     }
 }
