@@ -299,8 +299,9 @@ impl<const D: usize> Pair<D> {
         let push = -kappa * gap;
         force += n * push;
         stiffness += n * n.transpose() * kappa;
-        // Friction without end times no pressure is none.
-        let most = if push > 0.0 {
+        // Friction without end times no pressure is none. What faces overlap by when they have just met is no pressure yet:
+        // as friction it would throw slivers far away.
+        let most = if push > 0.0 && self.state != State::Open {
             push * self.friction
         } else {
             0.0

@@ -4,4 +4,5 @@
 
 mod bar;
 mod cantilever;
+mod closed;
 mod flight;

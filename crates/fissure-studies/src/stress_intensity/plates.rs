@@ -126,14 +126,16 @@ fn closed(
     let (sine, cosine) = angle.sin_cos();
     let sliding = (sine * cosine - friction * cosine * cosine).max(0.0);
     let k = [0.0, -STRESS * (PI * a).sqrt() * sliding];
-    square(
-        a,
-        angle,
-        h,
-        move |t| -load(t),
-        ContactLaw::Coulomb { friction },
-        k,
-    )
+    let contact = ContactLaw::Coulomb { friction };
+    let mut plate = square(a, angle, h, move |t| -load(t), contact, k)?;
+    // A plate that dead loads press and nothing guides turns over.
+    let half = plate.high[1];
+    let upright = move |x: &Vector2<f64>| x.x.abs() < h && x.y.abs() > half - 0.5 * h;
+    let across = Hold::Component(Vector2::x());
+    plate
+        .scene
+        .hold("upright", BODY, upright, across, Velocity(|_| 0.0))?;
+    Ok(plate)
 }
 
 fn square(
