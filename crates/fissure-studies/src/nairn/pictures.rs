@@ -5,7 +5,7 @@ use std::path::Path;
 use fissure::io::plot::{LinePlot, ScatterPlot, Style};
 use fissure::io::table::{Cell, Table};
 use fissure::prelude::*;
-use fissure_study::StudyError;
+use fissure_study::{Parameters, StudyError};
 
 use crate::drawing::save;
 
@@ -33,6 +33,34 @@ pub(super) fn write_columns(path: &Path, columns: &[(&str, &[f64])]) -> Result<(
         table.row(cells).map_err(failed())?;
     }
     table.write(path).map_err(failed())
+}
+
+/// The values of those of these choices in which the runs of a study differ, in files; labels leave out the `usual` ones.
+pub(super) fn varied<'c>(
+    case: &'c Parameters,
+    choices: &[&str],
+    usual: &[&str],
+) -> Result<Varied<'c>, StudyError> {
+    let mut varied = Varied::default();
+    for choice in choices {
+        if case.varying().contains(choice) {
+            let value = case.choice(choice)?;
+            varied.file.push(value);
+            if !usual.contains(&value) {
+                varied.label.push(value);
+            }
+        }
+    }
+    Ok(varied)
+}
+
+/// What tells a run from the others of its study.
+#[derive(Default)]
+pub(super) struct Varied<'c> {
+    /// In the name of a file.
+    pub file: Vec<&'c str>,
+    /// In the label of a curve.
+    pub label: Vec<&'c str>,
 }
 
 /// Load over displacement of several runs in one picture.

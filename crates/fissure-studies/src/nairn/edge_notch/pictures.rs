@@ -10,7 +10,7 @@ use super::growth::Growth;
 use super::run::Finished;
 use crate::convergence::ErrorChart;
 use crate::drawing::save;
-use crate::nairn::pictures::{Loads, write_columns};
+use crate::nairn::pictures::{Loads, varied, write_columns};
 use crate::nairn::reference::Curve;
 
 pub(super) struct Pictures {
@@ -38,15 +38,14 @@ impl Names {
             let scheme = format!("{strength:.0} MPa, {toughness:.0} J/m²");
             (scheme, format!("{strength:.0}-MPa-{toughness:.0}"))
         };
-        for other in ["band", "notch", "line", "transfer", "shape"] {
-            if case.varying().contains(&other) {
-                let value = case.choice(other)?;
-                let usual = matches!(value, "particle" | "gap" | "cells" | "xpic" | "gimp");
-                if !usual {
-                    scheme = format!("{scheme}, {value}");
-                }
-                file = format!("{file}-{value}");
-            }
+        let choices = ["band", "notch", "line", "transfer", "shape"];
+        let usual = ["particle", "gap", "cells", "xpic", "gimp"];
+        let varied = varied(case, &choices, &usual)?;
+        for value in varied.label {
+            scheme = format!("{scheme}, {value}");
+        }
+        for value in varied.file {
+            file = format!("{file}-{value}");
         }
         let mut label = scheme.clone();
         if case.varying().contains(&"h") {

@@ -10,7 +10,7 @@ use super::run::{Finished, reference};
 use crate::convergence::ErrorChart;
 use crate::drawing::save;
 use crate::nairn::numerics::Numerics;
-use crate::nairn::pictures::{ROWS, thinned, write_columns};
+use crate::nairn::pictures::{ROWS, thinned, varied, write_columns};
 use crate::nairn::reference::Curve;
 
 pub(super) struct Pictures {
@@ -59,19 +59,20 @@ impl Pictures {
             return Ok(());
         };
         let kind = case.choice("case")?;
-        let mut scheme = format!("{}-{}", case.choice("shape")?, case.choice("transfer")?);
-        for other in ["plane", "band", "measure", "planes", "cracks"] {
-            if case.varying().contains(&other) {
-                scheme = format!("{scheme}-{}", case.choice(other)?);
-            }
-        }
-        let name = format!("{kind}-{scheme}");
+        let choices = ["plane", "band", "measure", "planes", "cracks"];
+        let usual = ["strain", "particle", "conjugate", "any", "one"];
+        let varied = varied(case, &choices, &usual)?;
+        let scheme = [case.choice("shape")?, case.choice("transfer")?];
+        let name = [&[kind], &scheme[..], &varied.file].concat().join("-");
         let row = &finished.row;
         let error = row.errors.get("peak").unwrap_or(f64::NAN);
         let own = kind_of(kind);
-        let label = if own == kind { &scheme } else { &name };
+        let mut label = [&scheme[..], &varied.label].concat();
+        if own != kind {
+            label.insert(0, kind);
+        }
         for (_, chart) in self.times.iter_mut().filter(|(known, _)| *known == own) {
-            chart.add(label, row.wall_s, error);
+            chart.add(&label.join("-"), row.wall_s, error);
         }
         let history = &finished.history;
         let thin = |column: &[f64]| thinned(column, ROWS);
