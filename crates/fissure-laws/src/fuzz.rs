@@ -37,6 +37,8 @@ pub struct Fuzzed {
     pub most_cracks: usize,
     /// Largest error of the tangent, over the stiffness or the column; NaN if none was taken.
     pub tangent_error: f64,
+    /// Where it was: the update, the increment and the state it started from, in words.
+    pub worst_tangent: Option<String>,
     /// Tangents compared.
     pub tangents: u64,
     /// Of these such as were difference quotients themselves: compared were two quotients then.
@@ -60,6 +62,7 @@ impl Default for Fuzzed {
             failed: 0,
             most_cracks: 0,
             tangent_error: f64::NAN,
+            worst_tangent: None,
             tangents: 0,
             numerical_tangents: 0,
             first: None,
@@ -77,15 +80,19 @@ impl Fuzzed {
         }
     }
 
+    /// This update, and what was wrong with it, in words.
+    fn words<S: Debug>(&self, what: &str, walk: &Walk, increment: &Increment, old: &S) -> String {
+        let (number, kind) = (self.updates, walk.kind);
+        format!(
+            "update {number}, of a walk of the kind {kind:?}, {what}: {increment:?} from {old:?}"
+        )
+    }
+
     /// Keeps the first offence.
     fn tell<S: Debug>(&mut self, what: &str, walk: &Walk, increment: &Increment, old: &S) {
-        let number = self.updates;
-        self.first.get_or_insert_with(|| {
-            format!(
-                "update {number}, of a walk of the kind {:?}, {what}: {increment:?} from {old:?}",
-                walk.kind
-            )
-        });
+        if self.first.is_none() {
+            self.first = Some(self.words(what, walk, increment, old));
+        }
     }
 }
 
@@ -253,7 +260,11 @@ impl<S: Subject> Target<'_, S> {
             counts.tangents += 1;
             let numerical = is_difference_quotient(law, increment, old);
             counts.numerical_tangents += u64::from(numerical == Ok(true));
-            counts.tangent_error = counts.tangent_error.max(error);
+            if !(error <= counts.tangent_error) {
+                let what = format!("has a tangent {error:.2e} off");
+                counts.tangent_error = error;
+                counts.worst_tangent = Some(counts.words(&what, walk, increment, old));
+            }
         }
     }
 }

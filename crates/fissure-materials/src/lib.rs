@@ -17,11 +17,11 @@
 
 mod anisotropic_damage;
 mod biot;
-mod bisection;
 mod cohesive;
 pub mod contract;
 mod cracking;
 pub mod criteria;
+mod crossing;
 mod decohesive;
 mod eight;
 mod equilibrium;

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use fissure_tensor::{Sym, Vector3, rotation};
 
 use super::{Case, Random, frames::perturbed, gauge::Gauge, runner::Property, subject::Subject};
-use crate::bisection::bisect;
+use crate::crossing::crossing;
 use crate::{Crack, Cracking, MaterialError, Scale};
 
 /// No direction of a grid of 3° over the half sphere gives a larger failure function than the
@@ -117,8 +117,8 @@ fn started<M: Cracking>(
         None => gauge.check(found.value, tolerance, "no crack started over the surface"),
         Some(crack) => {
             gauge.check(-found.value, tolerance, "a crack started below the surface");
-            let is_below = |share: f64| law.initiation(&(trial * share), &scale).value <= 0.0;
-            let [share, _] = bisect(0.0, 1.0, is_below);
+            let beyond = |share: f64| law.initiation(&(trial * share), &scale).value;
+            let [share, _] = crossing(0.0, 1.0, beyond);
             let onset = trial * share;
             let value = law.failure_along(&onset, &crack.normal, &scale);
             gauge.check(

@@ -12,7 +12,7 @@
 //! τ_s = κ τ₀,   κ = N/(N + 2 (μ/L) Δu_n/τ_sf²),
 //! ```
 //! and the opening fixes `τ_n = t₀ − (E₁/L) u_n`, `S = S₀ − 2(λ/L) u_n`, `M = M₀ − a S₀ + a²` with
-//! `a = (λ/L) u_n`, and `f_n`. What is left is one equation for the opening, `F_n = 0`: found by bisection
+//! `a = (λ/L) u_n`, and `f_n`. What is left is one equation for the opening, `F_n = 0`: bracketed, and found
 //! between the old opening and the critical one, which always ends (a step whose root lies beyond fails
 //! the plane), and differentiated implicitly for the tangent. The slip keeps the direction of the trial.
 //!
@@ -36,7 +36,7 @@ use super::{
     decohesion::{contact, slide},
     turn::maximum_rate,
 };
-use crate::bisection::bisect;
+use crate::crossing::crossing;
 use crate::{
     Initiation, MaterialError, Scale, Softening, check_parameter,
     criteria::{FailureCriterion, Geological, OnPlane},
@@ -97,8 +97,9 @@ impl<S: Softening> GeologicalFlow<S> {
 
     /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane.
     fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64, rank: Rank) -> f64 {
-        let is_below = |share: f64| !(self.along(&(*stress * share), normal, rank) > 0.0);
-        bisect(0.0, most, is_below)[1]
+        crossing(0.0, most, |share| {
+            self.along(&(*stress * share), normal, rank)
+        })[1]
     }
 
     /// The shear traction at which a failed plane that holds until then starts to slide, on the straight way from
@@ -112,14 +113,14 @@ impl<S: Softening> GeologicalFlow<S> {
         let at = |part: f64| sheared + (held - sheared) * part;
         // That of an open plane's pressure, whose root would be none.
         let round_off = 64.0 * f64::EPSILON * trial.stress.norm();
-        let holds = |part: f64| {
+        let excess = |part: f64| {
             let pressure = -(from + (to - from) * part) - round_off;
-            at(part).norm() < self.residual(pressure.max(0.0))
+            at(part).norm() - self.residual(pressure.max(0.0))
         };
-        if !holds(0.0) {
+        if !(excess(0.0) < 0.0) {
             return sheared;
         }
-        at(bisect(0.0, 1.0, holds)[1])
+        at(crossing(0.0, 1.0, excess)[1])
     }
 
     /// Shear traction if nothing slid, Pa.

@@ -61,18 +61,21 @@ impl Study for LawTable {
 
     fn run(&self, cases: &[Parameters], report: &mut Report<'_>) -> Result<(), StudyError> {
         for case in chosen::offered(cases)? {
-            let (row, first) = row(case)?;
+            let (row, remarks) = row(case)?;
             report.row(row)?;
-            if let Some(first) = first {
-                report.progress(&first);
+            for remark in remarks {
+                report.progress(&remark);
             }
         }
         Ok(())
     }
 }
 
-/// The row of a law, and the first update that did what must not happen.
-fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
+/// Tangents further off than this are told of, with the update and the state.
+const TANGENT_TOLD: f64 = 1e-5;
+
+/// The row of a law, the first update that did what must not happen, and the one whose tangent is furthest off.
+fn row(case: &Parameters) -> Result<(Row, Vec<String>), StudyError> {
     let chosen = Chosen::of(case)?;
     let (updates, seed) = (case.count("updates")?, case.count("seed")?);
     let law = &chosen.law;
@@ -114,5 +117,8 @@ fn row(case: &Parameters) -> Result<(Row, Option<String>), StudyError> {
         .field("tangents_numerical", fuzzed.numerical_tangents)
         .field("wall_s", wall_s)
         .parameters(case);
-    Ok((row, fuzzed.first))
+    let worst = fuzzed
+        .worst_tangent
+        .filter(|_| fuzzed.tangent_error > TANGENT_TOLD);
+    Ok((row, fuzzed.first.into_iter().chain(worst).collect()))
 }

@@ -1,7 +1,7 @@
 //! A plane that flows, as a function of its opening.
 
 use super::GeologicalFlow;
-use crate::bisection::bisect;
+use crate::crossing::crossing;
 use crate::{
     Softening,
     criteria::{OnPlane, Partials},
@@ -98,6 +98,6 @@ impl<S: Softening> Opening<'_, S> {
         if !(self.excess(high) >= 0.0) {
             return None;
         }
-        Some(bisect(low, high, |opening| self.excess(opening) < 0.0)[1])
+        Some(crossing(low, high, |opening| self.excess(opening))[1])
     }
 }
