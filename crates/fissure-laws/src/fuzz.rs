@@ -249,12 +249,13 @@ impl<S: Subject> Target<'_, S> {
         let failure = (natural + opening).min(0.1);
         let [a, b, c, d] = TANGENT_STEPS.map(|step| step * failure);
         // A failed crack that follows the strain turns over strains of its size, and where the last step ended cracks have
-        // their kinks: of two at once no quotient across them is the derivative.
+        // their kinks, of several planes many: where there is one on either side no quotient across them is the derivative.
         let near = 1e-2 * strain.min(failure);
-        let within = 0.1 * (increment.f_new - increment.f_old).norm().min(failure);
+        let moved = (increment.f_new - increment.f_old).norm().min(failure);
+        let [within, well_within] = [0.1 * moved, 0.01 * moved];
         // A plane across a principal direction turns over strains of the size of what that is ahead of the next.
         let apart = (1e-2 * (first - second).min(second - third)).clamp(1e-6 * c, a);
-        let steps = [a, b, c, d, near, within, apart];
+        let steps = [a, b, c, d, near, within, well_within, apart];
         let law = self.subject.law();
         if let Ok(error) = tangent_error(law, increment, old, self.stiffness, &steps) {
             counts.tangents += 1;
