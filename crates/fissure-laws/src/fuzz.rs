@@ -108,6 +108,9 @@ const TANGENT_EVERY: u64 = 256;
 /// Difference steps of tangents, over the strain at failure; the best counts.
 const TANGENT_STEPS: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
+/// The least difference step, which leaves some 1e-6 of round-off: between kinks that are nearer no quotient says more.
+const LEAST: f64 = 1e-10;
+
 /// What a fuzz knows of its law.
 struct Target<'a, S> {
     subject: &'a S,
@@ -255,7 +258,7 @@ impl<S: Subject> Target<'_, S> {
         let [within, well_within] = [0.1 * moved, 0.01 * moved];
         // A plane across a principal direction turns over strains of the size of what that is ahead of the next.
         let apart = (1e-2 * (first - second).min(second - third)).clamp(1e-6 * c, a);
-        let steps = [a, b, c, d, near, within, well_within, apart];
+        let steps = [a, b, c, d, near, within, well_within, apart, LEAST];
         let law = self.subject.law();
         if let Ok(error) = tangent_error(law, increment, old, self.stiffness, &steps) {
             counts.tangents += 1;

@@ -131,12 +131,14 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
         self.decohesion.steepest() * width / (2.0 * self.elastic.shear_modulus())
     }
 
-    /// `sin²` of the threshold angle for a band of this width.
-    fn threshold(&self, width: f64) -> f64 {
-        match self.planes {
-            Planes::Multiple(Some(angle)) => angle.sin().powi(2),
-            _ => (1.25 * self.unique_above(width)).max(LEAST_THRESHOLD.sin().powi(2)),
+    /// `sin²` of the threshold angle that a further plane keeps from this one. Of two planes the wider band is the less
+    /// stable; it is that of the widest direction, so that directions to keep from are a cone.
+    fn threshold(&self, plane: &Plane, band: &Band) -> f64 {
+        if let Planes::Multiple(Some(angle)) = self.planes {
+            return angle.sin().powi(2);
         }
+        let width = band.max_width().max(plane.width);
+        (1.25 * self.unique_above(width)).max(LEAST_THRESHOLD.sin().powi(2))
     }
 
     /// Most planes allowed.
@@ -338,16 +340,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
                 if SHEET {
                     (stress.mandel[2], rate.mandel[2]) = (0.0, 0.0);
                 }
-                let rotation = &step.kinematics.rotation;
-                let threshold = |plane: &Plane, turn: &Vector3<f64>| {
-                    let axis = plane.normal();
-                    let at = |part: f64| {
-                        let spatial = (rotation + rotation_rate * part) * (axis + turn * part);
-                        self.threshold(band.width(&spatial.normalize()).max(plane.width))
-                    };
-                    let part = 1e-6 / (rotation_rate.norm() + turn.norm() + f64::MIN_POSITIVE);
-                    [at(0.0), (at(part) - at(-part)) / (2.0 * part)]
-                };
+                let threshold = |plane: &Plane| self.threshold(plane, band);
                 let turned = turns.map(|turn| turn.normal);
                 let stresses = [&stress, &rate];
                 start::normal_rate(

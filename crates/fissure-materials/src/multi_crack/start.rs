@@ -91,10 +91,7 @@ impl<const N: usize, D: Decohesion> MultiCrack<N, D> {
             return Ok(Next::Nothing);
         }
         let width_of = |normal: &Vector3<f64>| band.width(&(kinematics.rotation * normal));
-        // Of two planes the wider band is the less stable.
-        let threshold = |normal: &Vector3<f64>, plane: &Plane| {
-            self.threshold(width_of(normal).max(plane.width))
-        };
+        let threshold = |plane: &Plane| self.threshold(plane, band);
         let found = initiation(&self.decohesion, stress, planes, threshold);
         let Some(Initiation { value, mut normal }) = found else {
             return Ok(Next::Nothing);
@@ -151,17 +148,17 @@ fn rank(planes: &[Plane]) -> Rank {
 }
 
 /// The largest failure function and its direction outside the cones; `None` if there is no such
-/// direction on them. `threshold` gives `sin²` of the angle to keep from a plane.
+/// direction on them. `threshold` gives `sin²` of the angle to keep from a plane, in whatever direction.
 fn initiation<D: Decohesion>(
     decohesion: &D,
     stress: &Sym,
     planes: &[Plane],
-    threshold: impl Fn(&Vector3<f64>, &Plane) -> f64,
+    threshold: impl Fn(&Plane) -> f64,
 ) -> Option<Initiation> {
     let free = |normal: &Vector3<f64>| {
         planes.iter().all(|plane| {
             let sine_squared = normal.cross(&plane.normal()).norm_squared();
-            sine_squared >= threshold(normal, plane)
+            sine_squared >= threshold(plane)
         })
     };
     let rank = rank(planes);
@@ -171,7 +168,7 @@ fn initiation<D: Decohesion>(
     }
     let cone_of = |plane: &Plane| Cone {
         axis: plane.normal(),
-        sine_squared: threshold(&plane.normal(), plane) * HAIR,
+        sine_squared: threshold(plane) * HAIR,
     };
     let mut best: Option<Initiation> = None;
     for plane in planes {
@@ -223,15 +220,14 @@ fn initiation<D: Decohesion>(
     best
 }
 
-/// Change of the normal that [`initiation`] gave with the stress, the turning of the planes, and the `sin²` of the
-/// threshold angle, given as value and rate for each.
+/// Change of the normal that [`initiation`] gave with the stress and the turning of the planes.
 pub(super) fn normal_rate<D: Decohesion>(
     decohesion: &D,
     stress: [&Sym; 2],
     planes: &[Plane],
     rates: &[Vector3<f64>],
     normal: &Vector3<f64>,
-    threshold: impl Fn(&Plane, &Vector3<f64>) -> [f64; 2],
+    threshold: impl Fn(&Plane) -> f64,
 ) -> Vector3<f64> {
     let rank = rank(planes);
     if decohesion.initiation(stress[0], rank).normal == *normal {
@@ -241,13 +237,12 @@ pub(super) fn normal_rate<D: Decohesion>(
     let mut on: [Option<Turned>; 2] = [None; 2];
     let mut gaps = [f64::INFINITY; 2];
     for (plane, rate) in planes.iter().zip(rates) {
-        let [sine_squared, sine_squared_rate] = threshold(plane, rate);
         let turned = Turned {
             cone: Cone {
                 axis: plane.normal(),
-                sine_squared,
+                sine_squared: threshold(plane),
             },
-            rates: (*rate, sine_squared_rate),
+            rate: *rate,
         };
         let gap = turned.cone.misses(normal);
         if gap < gaps[0] {
@@ -260,27 +255,23 @@ pub(super) fn normal_rate<D: Decohesion>(
     match on {
         [Some(one), Some(other)] if gaps[1] < ON_CONE => corner_rate([one, other], normal),
         [Some(one), _] => {
-            let (rate, sine_squared_rate) = one.rates;
-            let axes = [&one.cone.axis, &rate];
-            on_cone_rate(along, stress, axes, sine_squared_rate, normal)
+            let axes = [&one.cone.axis, &one.rate];
+            on_cone_rate(along, stress, axes, normal)
         }
         _ => Vector3::zeros(),
     }
 }
 
-/// A cone with the rates of its axis and of its `sin²`.
+/// A cone with the rate of its axis.
 #[derive(Clone, Copy)]
 struct Turned {
     cone: Cone,
-    rates: (Vector3<f64>, f64),
+    rate: Vector3<f64>,
 }
 
 /// How the corner of two cones moves with them: `n·a = cos θ` for both, and `n·n = 1`, differentiated.
 fn corner_rate(turned: [Turned; 2], normal: &Vector3<f64>) -> Vector3<f64> {
-    let [right, other_right] = turned.map(|Turned { cone, rates }| {
-        let cosine = cone.axis.dot(normal);
-        -rates.1 / (2.0 * cosine) - normal.dot(&rates.0)
-    });
+    let [right, other_right] = turned.map(|turned| -normal.dot(&turned.rate));
     let [one, other] = turned.map(|turned| turned.cone.axis);
     let system = Matrix3::from_rows(&[one.transpose(), other.transpose(), normal.transpose()]);
     let inverse = system.try_inverse().unwrap_or_else(Matrix3::zeros);

@@ -45,18 +45,17 @@ pub(super) fn maximum_rate(
     turn * (size / stress.norm() / determinant)
 }
 
-/// Where `F` is largest on the cone of an angle with `sine`² about an axis; all three change at these rates.
+/// Where `F` is largest on the cone of directions as far as this one from an axis; stress and axis change at these rates.
 pub(super) fn on_cone_rate(
     along: impl Fn(&Sym, &Vector3<f64>) -> f64,
     [stress, stress_rate]: [&Sym; 2],
     [axis, axis_rate]: [&Vector3<f64>; 2],
-    sine_squared_rate: f64,
     normal: &Vector3<f64>,
 ) -> Vector3<f64> {
     let cosine = normal.dot(axis);
     let side = normal - axis * cosine;
-    let sine_squared = side.norm_squared();
-    let rate = stress_rate.norm() / stress.norm() + axis_rate.norm() + sine_squared_rate.abs();
+    let sine = side.norm();
+    let rate = stress_rate.norm() / stress.norm() + axis_rate.norm();
     if rate == 0.0 {
         return Vector3::zeros();
     }
@@ -65,10 +64,8 @@ pub(super) fn on_cone_rate(
         let axis = (axis + axis_rate * part).normalize();
         let side = (side - axis * axis.dot(&side)).normalize();
         let across = axis.cross(&side);
-        let sine_squared = sine_squared + sine_squared_rate * part;
         let (y, x) = angle.sin_cos();
-        let cosine = cosine.signum() * (1.0 - sine_squared).sqrt();
-        axis * cosine + (side * x + across * y) * sine_squared.sqrt()
+        axis * cosine + (side * x + across * y) * sine
     };
     let at = |angle: f64, part: f64| {
         let stress = *stress + *stress_rate * (part / rate);

@@ -53,7 +53,9 @@ fn storage_order_does_not_matter_and_every_plane_is_returned() -> Result<(), Mat
             for (i, first) in planes.iter().enumerate() {
                 for second in &planes[..i] {
                     let sine_squared = first.normal().cross(&second.normal()).norm_squared();
-                    assert!(sine_squared >= law.threshold(0.01) * (1.0 - 1e-12));
+                    assert!(
+                        sine_squared >= law.threshold(second, &Band::Uniform(0.01)) * (1.0 - 1e-12)
+                    );
                 }
             }
             state = a.state;
