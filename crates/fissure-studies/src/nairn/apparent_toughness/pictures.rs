@@ -34,10 +34,9 @@ impl Pictures {
         let row = &finished.row;
         let value = |name| row.values.get(name).unwrap_or(f64::NAN);
         let (band, line, h) = (case.choice("band")?, case.choice("line")?, row.h);
-        let mut label = format!("{}, {band} band", row.solver);
-        if line == "nodes" {
-            label = format!("{label}, on nodes");
-        }
+        let on_nodes = if line == "nodes" { ", on nodes" } else { "" };
+        let place = format!("{band} band{on_nodes}");
+        let label = format!("{}, {place}", row.solver);
         let name = format!("{}-{band}-{line}-h-{}", row.solver, 1e3 * h);
         let picture = folder.join(format!("{name}-damage.png"));
         let damage = &finished.damage;
@@ -51,6 +50,7 @@ impl Pictures {
         let table = folder.join(format!("{name}-load.csv"));
         self.loads.add(&label, &finished.load, &table)?;
         if finished.resistance.len() > 1 {
+            let label = format!("{place}, h/l = {:.2}", point[0]);
             self.resistances.push((label, finished.resistance.clone()));
         }
         Ok(())
