@@ -59,6 +59,8 @@ mod tests {
 
     use super::*;
 
+    type Function = fn(f64) -> f64;
+
     /// The place, and how often the function was asked.
     fn counted(low: f64, high: f64, function: impl Fn(f64) -> f64) -> ([f64; 2], usize) {
         let count = Cell::new(0);
@@ -71,7 +73,7 @@ mod tests {
 
     #[test]
     fn the_ends_are_neighbours_after_a_dozen_evaluations() {
-        let smooth: [(f64, f64, fn(f64) -> f64); 4] = [
+        let smooth: [(f64, f64, Function); 4] = [
             (0.0, 2.0, |x| x * x - 2.0),
             (0.0, 10.0, |x| (x - 3.0).tanh()),
             (0.0, 1.0, |x| 1e9 * x - 3.0),
@@ -87,7 +89,7 @@ mod tests {
 
     #[test]
     fn what_is_not_smooth_is_found_as_well() {
-        let rough: [fn(f64) -> f64; 5] = [
+        let rough: [Function; 5] = [
             |x| if x < 0.3 { -1.0 } else { 1.0 },
             |x| if x < 1e-200 { -1e-9 } else { 1e9 },
             |x| (x - 0.7).powi(9),
