@@ -228,18 +228,23 @@ fn growth_by_damage_costs_two_rows_and_a_wake() {
         "{}",
         rows[0]
     );
-    // In equilibrium onset asks for less than under a pull that goes on while the process zone grows, and growth for less
-    // than onset: two rows, and what is stored in the zone moves on with the tip.
+    // In equilibrium growth asks for less than onset: two rows, and what is stored in the zone moves on with the tip.
     let still = |name| number(&rows[1], "values", name);
+    assert!(still("length_mm") >= 3.6, "{}", rows[1]);
     assert!((still("failed_rows") - 2.0).abs() < 0.1, "{}", rows[1]);
     assert!((still("spent") - 2.0).abs() < 0.2, "{}", rows[1]);
     let (onset, grown) = (still("far_j_at_onset"), still("far_j_grown"));
     assert!(
-        onset < 4.0 && grown < 0.8 * onset && grown > still("spent"),
+        onset < 4.0 && grown < 0.95 * onset && grown > still("spent"),
         "{}",
         rows[1]
     );
     // With the band of the discretisation it is the toughness at which damage grows in equilibrium.
+    assert!(
+        number(&rows[2], "values", "length_mm") >= 1.0,
+        "{}",
+        rows[2]
+    );
     for name in ["far_j_at_onset", "far_j_grown"] {
         let still = number(&rows[2], "values", name);
         assert!((still - 1.0).abs() < 0.12, "{}", rows[2]);

@@ -95,7 +95,8 @@ impl<S: Softening> GeologicalFlow<S> {
         self.surface.shear_strength * capacity.max(0.0).sqrt()
     }
 
-    /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane.
+    /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane. Zero for a stress that is no
+    /// number.
     fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64, rank: Rank) -> f64 {
         crossing(0.0, most, |share| {
             self.along(&(*stress * share), normal, rank)

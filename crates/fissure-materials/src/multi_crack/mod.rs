@@ -76,7 +76,7 @@ pub enum Planes {
     #[default]
     Fixed,
     /// Up to `N`, at least this angle apart, radians, in (0, π/2]. `None`: the larger of 15° and
-    /// the bound of uniqueness with a reserve of a quarter, `sin²θ = 1.25 h/(2μ)`.
+    /// the bound of uniqueness of the widest direction with a reserve of a quarter, `sin²θ = 1.25 h/(2μ)`.
     Multiple(Option<f64>),
     /// One that follows the first principal direction of the strain.
     Rotating,

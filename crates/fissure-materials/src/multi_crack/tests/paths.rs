@@ -149,12 +149,21 @@ fn storage_order_does_not_matter_to_geological_flow() -> Result<(), MaterialErro
 /// How far the tangent at the end of a walk is from Richardson differences with a step of 1e-5 of the failure strain
 /// u₀/L = 4.5e-3, over the stiffness or its largest entry.
 fn tangent_gap<M: Material>(law: &M, points: &[Sym], last: &Sym) -> Result<f64, MaterialError> {
+    tangent_gap_over(BAND, law, points, last)
+}
+
+fn tangent_gap_over<M: Material>(
+    band: Band,
+    law: &M,
+    points: &[Sym],
+    last: &Sym,
+) -> Result<f64, MaterialError> {
     let (mut state, mut from) = (law.initial(), Sym::ZERO);
     for to in points {
-        state = law.update(&step_to(&from, to, BAND), &state)?.state;
+        state = law.update(&step_to(&from, to, band), &state)?.state;
         from = *to;
     }
-    let step = step_to(&from, last, BAND);
+    let step = step_to(&from, last, band);
     let tangent = law.tangent(&step, &state)?;
     let difference = |h: f64| difference_tangent(law, &step, &state, h);
     let (coarse, fine) = (difference(4.5e-8)?, difference(2.25e-8)?);
@@ -197,6 +206,51 @@ fn tangent_of_several_planes_is_that_of_differences() -> Result<(), MaterialErro
     }
     println!("{checked} agree, {kinks} do not");
     assert_eq!((checked, kinks), (120, 0));
+    Ok(())
+}
+
+/// Over bands that depend on the direction a plane may start on the cone of another all the same, and its band turns with it.
+#[test]
+fn tangent_of_planes_that_start_over_a_band_with_a_direction() -> Result<(), MaterialError> {
+    let mut random = Random::new(7);
+    let bands = [
+        Band::Projected([0.004, 0.006, 0.008]),
+        Band::Section([0.004, 0.007, 0.011]),
+    ];
+    let (mut on_cones, mut off, mut refused) = (0, 0, 0);
+    for index in 0..120 {
+        let (unloading, shear) = CHOICES[index % 6];
+        let (law, band) = (
+            law::<6>(unloading, shear, Planes::Multiple(None)),
+            bands[index % 2],
+        );
+        let points = walk(&mut random, false);
+        let last = Sym::dyad(&random.direction()) * random.log_uniform(2e-4, 2e-3);
+        let Ok(gap) = tangent_gap_over(band, &law, &points, &last) else {
+            refused += 1;
+            continue;
+        };
+        let mut state = law.initial();
+        let ways = std::iter::once(&Sym::ZERO).chain(&points);
+        for (from, to) in ways.zip(points.iter().chain([&last])) {
+            state = law.update(&step_to(from, to, band), &state)?.state;
+        }
+        let planes = state.planes();
+        let is_on = |a: &Plane, b: &Plane| {
+            let sine_squared = a.normal().cross(&b.normal()).norm_squared();
+            assert!(sine_squared >= law.threshold(a, &band) * (1.0 - 1e-12));
+            sine_squared < law.threshold(a, &band) * (1.0 + 1e-6)
+        };
+        let mut pairs = (1..planes.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
+        on_cones += u32::from(pairs.any(|(j, i)| is_on(&planes[j], &planes[i])));
+        if !(gap < 1e-7) {
+            off += 1;
+            println!("{index}: {gap:e}");
+        }
+    }
+    println!("{on_cones} with planes on a cone, {off} tangents off, {refused} refused");
+    assert!(off == 0 && refused <= 2);
+    assert!(on_cones > 10, "{on_cones}");
     Ok(())
 }
 

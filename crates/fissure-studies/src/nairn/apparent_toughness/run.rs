@@ -172,7 +172,10 @@ fn follow(
         seen.load.push(plate.load(scene));
         if let Some(growth) = seen.costs.look(scene, places, plate) {
             let release = release(scene, plate, None, radius);
-            seen.resistance.push([growth, release]);
+            // A leap may end beyond the part of the domain that has no slope, where J is no measure.
+            if growth < 0.5 * radius {
+                seen.resistance.push([growth, release]);
+            }
             if seen.onset.is_none() {
                 seen.onset = Some((report.time, plate.speed() * scene.load_time()));
                 seen.release = release;
