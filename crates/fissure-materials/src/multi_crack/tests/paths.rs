@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Cracking;
-use crate::contract::Random;
+use crate::contract::{Random, tangent_error};
 use crate::material::difference_tangent;
 
 const BAND: Band = Band::Uniform(0.01);
@@ -149,21 +149,12 @@ fn storage_order_does_not_matter_to_geological_flow() -> Result<(), MaterialErro
 /// How far the tangent at the end of a walk is from Richardson differences with a step of 1e-5 of the failure strain
 /// u₀/L = 4.5e-3, over the stiffness or its largest entry.
 fn tangent_gap<M: Material>(law: &M, points: &[Sym], last: &Sym) -> Result<f64, MaterialError> {
-    tangent_gap_over(BAND, law, points, last)
-}
-
-fn tangent_gap_over<M: Material>(
-    band: Band,
-    law: &M,
-    points: &[Sym],
-    last: &Sym,
-) -> Result<f64, MaterialError> {
     let (mut state, mut from) = (law.initial(), Sym::ZERO);
     for to in points {
-        state = law.update(&step_to(&from, to, band), &state)?.state;
+        state = law.update(&step_to(&from, to, BAND), &state)?.state;
         from = *to;
     }
-    let step = step_to(&from, last, band);
+    let step = step_to(&from, last, BAND);
     let tangent = law.tangent(&step, &state)?;
     let difference = |h: f64| difference_tangent(law, &step, &state, h);
     let (coarse, fine) = (difference(4.5e-8)?, difference(2.25e-8)?);
@@ -211,30 +202,23 @@ fn tangent_of_several_planes_is_that_of_differences() -> Result<(), MaterialErro
 
 /// Over bands that depend on the direction a plane may start on the cone of another all the same, and its band turns with it.
 #[test]
-fn tangent_of_planes_that_start_over_a_band_with_a_direction() -> Result<(), MaterialError> {
+fn tangent_of_planes_that_start_over_a_band_with_a_direction() {
     let mut random = Random::new(7);
     let bands = [
-        Band::Projected([0.004, 0.006, 0.008]),
-        Band::Section([0.004, 0.007, 0.011]),
+        Band::Projected([0.05, 0.08, 0.11]),
+        Band::Section([0.05, 0.08, 0.13]),
     ];
     let (mut on_cones, mut off, mut refused) = (0, 0, 0);
-    for index in 0..120 {
+    for index in 0..600 {
         let (unloading, shear) = CHOICES[index % 6];
-        let (law, band) = (
-            law::<6>(unloading, shear, Planes::Multiple(None)),
-            bands[index % 2],
-        );
+        let law = law::<6>(unloading, shear, Planes::Multiple(None));
+        let band = bands[index % 2];
         let points = walk(&mut random, false);
         let last = Sym::dyad(&random.direction()) * random.log_uniform(2e-4, 2e-3);
-        let Ok(gap) = tangent_gap_over(band, &law, &points, &last) else {
+        let Ok((gap, state)) = tangent_and_end(&law, band, &points, &last) else {
             refused += 1;
             continue;
         };
-        let mut state = law.initial();
-        let ways = std::iter::once(&Sym::ZERO).chain(&points);
-        for (from, to) in ways.zip(points.iter().chain([&last])) {
-            state = law.update(&step_to(from, to, band), &state)?.state;
-        }
         let planes = state.planes();
         let is_on = |a: &Plane, b: &Plane| {
             let sine_squared = a.normal().cross(&b.normal()).norm_squared();
@@ -243,15 +227,33 @@ fn tangent_of_planes_that_start_over_a_band_with_a_direction() -> Result<(), Mat
         };
         let mut pairs = (1..planes.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
         on_cones += u32::from(pairs.any(|(j, i)| is_on(&planes[j], &planes[i])));
-        if !(gap < 1e-7) {
+        if !(gap < 1e-6) {
             off += 1;
             println!("{index}: {gap:e}");
         }
     }
     println!("{on_cones} with planes on a cone, {off} tangents off, {refused} refused");
-    assert!(off == 0 && refused <= 2);
-    assert!(on_cones > 10, "{on_cones}");
-    Ok(())
+    assert_eq!(off, 0);
+    assert!(on_cones > 50 && refused <= 6);
+}
+
+/// How far the tangent of a last step is from the nearest of some quotients, to either side, over the stiffness; and where
+/// the step ends.
+fn tangent_and_end<M: Material>(
+    law: &M,
+    band: Band,
+    points: &[Sym],
+    last: &Sym,
+) -> Result<(f64, M::State), MaterialError> {
+    let (mut state, mut from) = (law.initial(), Sym::ZERO);
+    for to in points {
+        state = law.update(&step_to(&from, to, band), &state)?.state;
+        from = *to;
+    }
+    let step = step_to(&from, last, band);
+    let stiffness = CONCRETE.p_wave_modulus();
+    let gap = tangent_error(law, &step, &state, stiffness, &[1e-6, 1e-7, 1e-8, 1e-9])?;
+    Ok((gap, law.update(&step, &state)?.state))
 }
 
 /// What a fuzz counts.
