@@ -118,7 +118,8 @@ fn started<M: Cracking>(
         Some(crack) => {
             gauge.check(-found.value, tolerance, "a crack started below the surface");
             let beyond = |share: f64| law.initiation(&(trial * share), &scale).value;
-            let [share, _] = crossing(0.0, 1.0, beyond);
+            let ends = [0.0, 1.0];
+            let [share, _] = crossing(ends, ends.map(beyond), beyond);
             let onset = trial * share;
             let value = law.failure_along(&onset, &crack.normal, &scale);
             gauge.check(

@@ -83,7 +83,8 @@ pub(super) fn largest(
             let after = slope(if k == INTERVALS { 1.0 } else { grid(k) });
             // Zero at a point of the grid is no rare case: in pure shear the largest value is at 45° exactly.
             if before > 0.0 && after <= 0.0 {
-                let [share, _] = crossing(grid(k - 1), grid(k), |share| -slope(share));
+                let ends = [grid(k - 1), grid(k)];
+                let [share, _] = crossing(ends, [-before, -after], |share| -slope(share));
                 let p = on_edge(share);
                 best.consider(at(p).value, p, 1e-13);
             }

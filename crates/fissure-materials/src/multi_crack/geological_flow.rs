@@ -98,9 +98,8 @@ impl<S: Softening> GeologicalFlow<S> {
     /// Up to `most`, where it is beyond: the share of a stress that is on the surface on one plane. Zero for a stress that is no
     /// number.
     fn share_on_surface(&self, stress: &Sym, normal: &Vector3<f64>, most: f64, rank: Rank) -> f64 {
-        crossing(0.0, most, |share| {
-            self.along(&(*stress * share), normal, rank)
-        })[1]
+        let beyond = |share: f64| self.along(&(*stress * share), normal, rank);
+        crossing([0.0, most], [0.0, most].map(beyond), beyond)[1]
     }
 
     /// The shear traction at which a failed plane that holds until then starts to slide, on the straight way from
@@ -118,10 +117,12 @@ impl<S: Softening> GeologicalFlow<S> {
             let pressure = -(from + (to - from) * part) - round_off;
             at(part).norm() - self.residual(pressure.max(0.0))
         };
-        if !(excess(0.0) < 0.0) {
+        let ends = [0.0, 1.0];
+        let values = ends.map(excess);
+        if !(values[0] < 0.0) {
             return sheared;
         }
-        at(crossing(0.0, 1.0, excess)[1])
+        at(crossing(ends, values, excess)[1])
     }
 
     /// Shear traction if nothing slid, Pa.

@@ -95,9 +95,10 @@ impl<S: Softening> Opening<'_, S> {
             }
         }
         // NaN fails the comparison: the plane fails, and the stress is refused as not finite.
-        if !(self.excess(high) >= 0.0) {
+        let values = [self.excess(low), self.excess(high)];
+        if !(values[1] >= 0.0) {
             return None;
         }
-        Some(crossing(low, high, |opening| self.excess(opening))[1])
+        Some(crossing([low, high], values, |opening| self.excess(opening))[1])
     }
 }
