@@ -68,12 +68,6 @@ impl<const N: usize> Numbers<N> {
     pub(crate) fn step(self, limit: f64) -> Self {
         self.each(|x| if x >= limit { 1.0 } else { 0.0 })
     }
-
-    /// 1 where between the limits or at one, else 0; also for what is no number.
-    #[inline(always)]
-    pub(crate) fn within(self, low: f64, high: f64) -> Self {
-        self.each(|x| if (x >= low) & (x <= high) { 1.0 } else { 0.0 })
-    }
 }
 
 impl<const N: usize> Add for Numbers<N> {

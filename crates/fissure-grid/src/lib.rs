@@ -70,4 +70,6 @@ pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};
 pub use stencils::{OneByOne, SeparableStencils, Stencils};
 pub use tiles::{ABSENT, Tiles};
-pub use window::{TILE, WINDOW, WINDOW_START, sums_entry, tile_of, window_map, window_node};
+pub use window::{
+    TILE, WINDOW, WINDOW_START, sums_entry, tile_of, window_entries, window_map, window_node,
+};

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::simd::EIGHT;
+use crate::simd::{EIGHT, Lanes};
 use crate::{Grid, Patches, Stencil, Stencils, tile_of};
 
 mod bspline;
@@ -85,8 +85,9 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
 
     /// Weights of eight particles of a tile at `x` (m, for each axis those of the eight), with the domain of each place; as [`stencil`](Self::stencil). A shape whose
     /// domain is always the initial one may ask for that of place 0 alone.
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],

@@ -28,16 +28,17 @@ pub trait Stencils<const D: usize> {
     /// What is not asked for has no meaning, and of the last number only the value and gradient of shapes that are not
     /// [`SMOOTH`](Self::SMOOTH) have one.
     ///
-    /// `field` holds [`FIELD`](crate::FIELD) numbers for each entry of the window.
+    /// `field` holds [`FIELD`](crate::FIELD) numbers for each of
+    /// [`window_entries`](crate::window_entries) entries.
     fn gather<L: Lanes, const G: bool, const M: bool>(
         &self,
         lanes: L,
         field: &[f64],
     ) -> Gathered<L::Eight, D>;
 
-    /// Adds what the first `count` particles give, those that fit, to the sums of every node: `N value`, and with `E` what
-    /// goes by gradient and weighted arm, as [`Gift`] says. `sums` holds an element for each entry of the window, at its
-    /// [`sums_entry`](crate::sums_entry).
+    /// Adds what the first `count` particles, at least one, give, those that fit, to the sums of every node: `N value`, and with `E` what
+    /// goes by gradient and weighted arm, as [`Gift`] says. `sums` holds an element for each of
+    /// [`window_entries`](crate::window_entries) entries, at its [`sums_entry`](crate::sums_entry).
     fn scatter<L: Lanes, const E: bool>(
         &self,
         lanes: L,

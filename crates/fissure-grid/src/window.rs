@@ -58,6 +58,18 @@ pub const fn sums_entry(entry: usize) -> usize {
     entry + entry / (WINDOW * WINDOW) as usize
 }
 
+/// Entries of an array over a window: its own, and as many as a stencil of four nodes along each axis reaches past the
+/// last of them. Those hold nothing. They are there so that transfers need not ask where a stencil ends.
+pub const fn window_entries(dimensions: usize) -> usize {
+    let (mut own, mut reach, mut axis) = (1, 1, 0);
+    while axis < dimensions {
+        reach += 3 * own;
+        own *= WINDOW as usize;
+        axis += 1;
+    }
+    own + reach
+}
+
 /// Grid index of a window entry's node; `entry` is below 8^D.
 #[inline]
 pub fn window_node<const D: usize>(tile: [i32; D], entry: usize) -> [i32; D] {

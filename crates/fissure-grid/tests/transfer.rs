@@ -2,7 +2,7 @@
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
 use fissure_grid::{
-    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape, sums_entry,
+    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape, sums_entry, window_entries,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -13,22 +13,32 @@ fn noise(seed: usize) -> f64 {
 }
 
 struct Both<'a, S, const D: usize> {
-    stencils: &'a S,
+    shape: &'a S,
+    grid: &'a Grid<D>,
+    x: &'a [[f64; EIGHT]; D],
+    domain: SMatrix<f64, D, D>,
     place: usize,
     field: &'a [f64],
     gifts: &'a [Gift<D>; EIGHT],
     sums: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Stencils<D>, const D: usize> SimdTask for Both<'_, S, D> {
+impl<S: Shape<D>, const D: usize> SimdTask for Both<'_, S, D> {
     type Output = Gathered<f64, D>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Self::Output {
-        self.stencils
-            .scatter::<L, true>(lanes, self.gifts, EIGHT, self.sums);
-        let found = self.stencils.gather::<L, true, true>(lanes, self.field);
         let place = self.place;
+        let domain = |_| self.domain;
+        let stencils = self
+            .shape
+            .stencils(lanes, self.grid, [1; D], self.x, domain);
+        for other in 0..EIGHT {
+            let fits = (1..=3).all(|ahead| other != (place + ahead) % EIGHT);
+            assert_eq!(stencils.fits(other), fits, "{}: {other}", self.shape.name());
+        }
+        stencils.scatter::<L, true>(lanes, self.gifts, EIGHT, self.sums);
+        let found = stencils.gather::<L, true, true>(lanes, self.field);
         let of_place = |eight: L::Eight| {
             let mut all = [0.0; EIGHT];
             lanes.store(eight, &mut all);
@@ -81,8 +91,8 @@ fn plain<S: Stencil<D>, const D: usize>(
 
 fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
     let grid = Grid::over([0.0; D], [3.0; D], 0.25).map_err(|error| error.to_string())?;
-    let window = 8_usize.pow(D as u32);
-    let field: Vec<f64> = (0..(window + 1) * FIELD).map(noise).collect();
+    let window = window_entries(D);
+    let field: Vec<f64> = (0..window * FIELD).map(noise).collect();
     let gift = Gift {
         value: std::array::from_fn(|c| noise(c + 1000)),
         sloped: std::array::from_fn(|a| {
@@ -102,17 +112,13 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
         let stencil = shape
             .stencil(&grid, [1; D], &all[place], &domain)
             .ok_or("no stencil")?;
-        // One that is off the grid and one in another tile do not disturb the others.
+        // One that is off the grid, one in another tile and one that is nowhere do not disturb the others.
         all[(place + 1) % EIGHT] = SVector::repeat(-1.0);
         all[(place + 2) % EIGHT] = SVector::repeat(2.9);
+        all[(place + 3) % EIGHT][eight % D] = f64::NAN;
         let columns = std::array::from_fn(|axis| all.map(|x| x[axis]));
         let mut gifts = [Gift::default(); EIGHT];
         gifts[place] = gift;
-        let stencils = shape.stencils(&grid, [1; D], &columns, |_| domain);
-        for other in 0..EIGHT {
-            let fits = other != (place + 1) % EIGHT && other != (place + 2) % EIGHT;
-            assert_eq!(stencils.fits(other), fits, "{}: {other}", shape.name());
-        }
         for name in ["plain", "avx2", "avx512"] {
             let Some(unit) = Simd::named(name) else {
                 continue;
@@ -121,7 +127,10 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
             let mut sums = exact_sums.clone();
             let exact = plain(&stencil, &field, &gift, &mut exact_sums);
             let found = unit.run(Both {
-                stencils: &stencils,
+                shape,
+                grid: &grid,
+                x: &columns,
+                domain,
                 place,
                 field: &field,
                 gifts: &gifts,

@@ -86,26 +86,27 @@ pub(crate) fn inverse<L: Lanes, const D: usize>(
     // Of a block with a unit beside it.
     let [a, b, c] = unit;
     let over = lanes.div(one, determinant(lanes, &unit));
-    let cofactor = |p: L::Eight, q: L::Eight, r: L::Eight, s: L::Eight| {
-        lanes.mul(minor(lanes, p, q, r, s), over)
-    };
-    [
+    let mut inverse = [
         [
-            cofactor(b[1], c[2], b[2], c[1]),
-            cofactor(c[1], a[2], c[2], a[1]),
-            cofactor(a[1], b[2], a[2], b[1]),
+            minor(lanes, b[1], c[2], b[2], c[1]),
+            minor(lanes, c[1], a[2], c[2], a[1]),
+            minor(lanes, a[1], b[2], a[2], b[1]),
         ],
         [
-            cofactor(b[2], c[0], b[0], c[2]),
-            cofactor(c[2], a[0], c[0], a[2]),
-            cofactor(a[2], b[0], a[0], b[2]),
+            minor(lanes, b[2], c[0], b[0], c[2]),
+            minor(lanes, c[2], a[0], c[0], a[2]),
+            minor(lanes, a[2], b[0], a[0], b[2]),
         ],
         [
-            cofactor(b[0], c[1], b[1], c[0]),
-            cofactor(c[0], a[1], c[1], a[0]),
-            cofactor(a[0], b[1], a[1], b[0]),
+            minor(lanes, b[0], c[1], b[1], c[0]),
+            minor(lanes, c[0], a[1], c[1], a[0]),
+            minor(lanes, a[0], b[1], a[1], b[0]),
         ],
-    ]
+    ];
+    for number in inverse.as_flattened_mut() {
+        *number = lanes.mul(*number, over);
+    }
+    inverse
 }
 
 /// What eight particles give to the nodes, component by component.

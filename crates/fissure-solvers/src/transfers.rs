@@ -14,7 +14,7 @@ use crate::eight::{
 };
 use crate::nodes::{Field, NodeSums};
 use crate::placement::Placement;
-use crate::window::{CUBE, SQUARE, WindowSums};
+use crate::window::{CUBE, CUBE_SUMS, SQUARE, SQUARE_SUMS, WindowSums};
 
 /// The discretisation of a scene: everything a transfer needs besides the particles' numbers.
 pub(crate) struct Transfers<'a, S, const D: usize> {
@@ -95,8 +95,9 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     /// Stencils of eight particles at `x`, with the deformation gradients of the first eight of these rows; the last
     /// one stands in for those that are not there.
     #[inline(always)]
-    pub(crate) fn stencils_at(
+    pub(crate) fn stencils_at<L: Lanes>(
         &self,
+        lanes: L,
         half_edges: &SMatrix<f64, D, D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
@@ -106,7 +107,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
             let f = &f[place.min(f.len() - 1)];
             self.shape.domain(half_edges, &Body::<D>::in_space(f))
         };
-        self.shape.stencils(self.grid, tile, x, domain)
+        self.shape.stencils(lanes, self.grid, tile, x, domain)
     }
 
     /// Sums to the nodes what the particles give.
@@ -120,8 +121,8 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         given: Given,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.spread_window::<SQUARE>(scene, body_index, runs, sums, given),
-            _ => self.spread_window::<CUBE>(scene, body_index, runs, sums, given),
+            2 => self.spread_window::<SQUARE_SUMS>(scene, body_index, runs, sums, given),
+            _ => self.spread_window::<CUBE_SUMS>(scene, body_index, runs, sums, given),
         })
     }
 
@@ -160,8 +161,8 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         sums: &mut NodeSums<D>,
     ) -> Result<(), (usize, usize)> {
         self.each_window(sums, &|body_index, runs, sums| match D {
-            2 => self.relay_window::<SQUARE, 64>(scene, body_index, runs, field, sums),
-            _ => self.relay_window::<CUBE, 512>(scene, body_index, runs, field, sums),
+            2 => self.relay_window::<SQUARE_SUMS, SQUARE>(scene, body_index, runs, field, sums),
+            _ => self.relay_window::<CUBE_SUMS, CUBE>(scene, body_index, runs, field, sums),
         })
     }
 
@@ -264,6 +265,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
             for first in (start..end).step_by(EIGHT) {
                 let rows = first..(first + EIGHT).min(end);
                 let stencils = self.transfers.stencils_at(
+                    lanes,
                     self.body.half_edges(),
                     self.tile,
                     &positions(lanes, &motion.position[rows.clone()]),
@@ -306,6 +308,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
             let (start, end) = (run.start as usize, run.end as usize);
             for first in (start..end).step_by(EIGHT) {
                 let stencils = self.transfers.stencils_at(
+                    lanes,
                     self.body.half_edges(),
                     self.tile,
                     &positions(lanes, &motion.position[first..end]),

@@ -1,6 +1,6 @@
 //! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
 
-use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, sums_entry, window_map};
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, sums_entry, window_entries, window_map};
 
 use crate::nodes::NodeSums;
 
@@ -83,10 +83,14 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
     }
 }
 
-/// Elements of a window's sums in the plane.
-pub(crate) const SQUARE: usize = sums_entry(64);
-/// The same in space.
-pub(crate) const CUBE: usize = sums_entry(512);
+/// Elements of arrays over a window in the plane.
+pub(crate) const SQUARE: usize = window_entries(2);
+/// The same of its sums.
+pub(crate) const SQUARE_SUMS: usize = sums_entry(SQUARE);
+/// Elements of arrays over a window in space.
+pub(crate) const CUBE: usize = window_entries(3);
+/// The same of its sums.
+pub(crate) const CUBE_SUMS: usize = sums_entry(CUBE);
 
 /// Sums of a window, aligned so that a node's numbers lie in one cache line.
 #[repr(align(64))]

@@ -9,6 +9,8 @@ mod plain;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+use std::hint::black_box;
+
 pub use columns::{Row, chunks, prefetch_rows, read_columns, read_numbers, write_columns};
 use plain::Plain;
 
@@ -39,6 +41,8 @@ pub trait Lanes: Copy + Send + Sync {
     fn pair(self, low: f64, high: f64) -> Self::Eight;
     /// The larger of each two; the second where one is no number.
     fn max(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// A bit for each number, by its place: whether it is zero or more. What is no number is not.
+    fn not_negative(self, x: Self::Eight) -> u8;
     /// The first `count`, and zeros.
     #[inline(always)]
     fn first(self, x: Self::Eight, count: usize) -> Self::Eight {
@@ -60,13 +64,52 @@ pub trait Lanes: Copy + Send + Sync {
     fn columns2(self, rows: [&[f64; 2]; 8]) -> [Self::Eight; 2];
     /// Two columns become eight rows of two numbers.
     fn rows2(self, columns: [Self::Eight; 2]) -> [[f64; 2]; 8];
+    /// Eight rows of two numbers that stand side by side become two columns.
+    #[inline(always)]
+    fn unzip2(self, rows: &[f64; 16]) -> [Self::Eight; 2] {
+        self.columns2(columns::parts(rows, 0))
+    }
+    /// The same of three.
+    #[inline(always)]
+    fn unzip3(self, rows: &[f64; 24]) -> [Self::Eight; 3] {
+        let [a, b] = self.columns2(columns::parts(rows, 0));
+        let [_, c] = self.columns2(columns::parts(rows, 1));
+        [a, b, c]
+    }
+    /// The same of four.
+    #[inline(always)]
+    fn unzip4(self, rows: &[f64; 32]) -> [Self::Eight; 4] {
+        self.columns4(columns::parts(rows, 0))
+    }
+    /// Two columns become eight rows of two numbers side by side.
+    #[inline(always)]
+    fn zip2(self, columns: [Self::Eight; 2], to: &mut [f64; 16]) {
+        to.copy_from_slice(self.rows2(columns).as_flattened());
+    }
+    /// The same of three.
+    #[inline(always)]
+    fn zip3(self, [a, b, c]: [Self::Eight; 3], to: &mut [f64; 24]) {
+        let mut last = [0.0; EIGHT];
+        self.store(c, &mut last);
+        let (to, _) = to.as_chunks_mut::<3>();
+        for (to, (two, last)) in to.iter_mut().zip(self.rows2([a, b]).iter().zip(last)) {
+            to[..2].copy_from_slice(two);
+            to[2] = last;
+        }
+    }
+    /// The same of four.
+    #[inline(always)]
+    fn zip4(self, columns: [Self::Eight; 4], to: &mut [f64; 32]) {
+        to.copy_from_slice(self.rows4(columns).as_flattened());
+    }
     /// Has the machine bring the line at this address to its caches, if it can. Nothing is read: any address will do.
     #[inline(always)]
     fn prefetch(self, _address: *const u8) {}
 }
 
 /// What is run on a vector unit. `run` must be `#[inline(always)]`, and so must what it calls, or it is compiled for
-/// the plain one.
+/// the plain one, where every operation on [`Lanes`] is a call. A closure cannot be made so: operations belong into
+/// functions.
 pub trait SimdTask {
     /// What comes out.
     type Output;
@@ -149,9 +192,16 @@ impl<L: Lanes, T: SimdTask> pulp::NullaryFnOnce for On<L, T> {
 
     #[inline(always)]
     fn call(self) -> T::Output {
+        // The compiler keeps vectors that do not fit the registers on the stack, and aligns the stack for them only if
+        // something there asks for it. Else each of them may lie across two cache lines.
+        black_box(&mut Line([0]));
         self.task.run(self.lanes)
     }
 }
+
+/// A cache line.
+#[repr(align(64))]
+struct Line(#[allow(dead_code)] [u8; 1]);
 
 #[cfg(test)]
 mod tests {
@@ -180,6 +230,39 @@ mod tests {
 
     /// Rows as columns, and back.
     struct Turns([[f64; 8]; 8]);
+
+    /// Which of these are not negative.
+    struct Signs([f64; 8]);
+
+    impl SimdTask for Signs {
+        type Output = u8;
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, lanes: L) -> u8 {
+            lanes.not_negative(lanes.load(&self.0))
+        }
+    }
+
+    #[test]
+    fn every_unit_tells_what_is_not_negative() {
+        for name in ["plain", "avx2", "avx512"] {
+            let Some(unit) = Simd::named(name) else {
+                continue;
+            };
+            let inf = f64::INFINITY;
+            let found = unit.run(Signs([
+                0.0,
+                -0.0,
+                1e-308,
+                -1e-308,
+                f64::NAN,
+                inf,
+                -inf,
+                2.0,
+            ]));
+            assert_eq!(found, 0b1010_0111, "{name}");
+        }
+    }
 
     impl SimdTask for Turns {
         type Output = [[[f64; 8]; 8]; 5];

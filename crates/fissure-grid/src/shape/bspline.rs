@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::axes::Numbers;
 use crate::separable::{Line, Profile};
-use crate::simd::EIGHT;
+use crate::simd::{EIGHT, Lanes};
 use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// Quadratic B-splines, continuous gradient. The domain is not used.
@@ -37,14 +37,15 @@ impl<const D: usize> Shape<D> for Bspline2 {
     }
 
     #[inline(always)]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(grid, tile, x, self)
+        SeparableStencils::new(lanes, grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -81,14 +82,15 @@ impl<const D: usize> Shape<D> for Bspline3 {
     }
 
     #[inline(always)]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(grid, tile, x, self)
+        SeparableStencils::new(lanes, grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {

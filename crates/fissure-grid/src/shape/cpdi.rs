@@ -4,7 +4,7 @@ use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::window::window_start;
-use crate::{Grid, OneByOne, Shape, Stencil, TILE, WINDOW_START, simd::EIGHT};
+use crate::{Grid, OneByOne, Shape, Stencil, TILE, WINDOW_START, simd::EIGHT, simd::Lanes};
 
 /// Corners of a parallelepiped, the most a domain has.
 const MOST_CORNERS: usize = 8;
@@ -92,8 +92,9 @@ impl<const D: usize> Shape<D> for Cpdi {
     }
 
     #[inline(always)]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        _lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::axes::Numbers;
 use crate::separable::{Line, Profile};
-use crate::simd::EIGHT;
+use crate::simd::{EIGHT, Lanes};
 use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// uGIMP: linear functions averaged over a cube of fixed size round the particle (Bardenhagen & Kober 2004).
@@ -38,15 +38,16 @@ impl<const D: usize> Shape<D> for Gimp {
     }
 
     #[inline(always)]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         match Averaged::of(grid, &domain(0)) {
-            Some(averaged) => SeparableStencils::new(grid, tile, x, &averaged),
+            Some(averaged) => SeparableStencils::new(lanes, grid, tile, x, &averaged),
             None => SeparableStencils::none(),
         }
     }

@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::patches::Patches;
 use crate::quads::QuadStencil;
-use crate::simd::EIGHT;
+use crate::simd::{EIGHT, Lanes};
 use crate::{Grid, OneByOne, QuadMesh, Shape};
 
 /// The functions of a [`QuadMesh`]: of the corners of the element that a particle is in. Goes with
@@ -51,8 +51,9 @@ impl Shape<2> for Isoparametric {
     }
 
     #[inline]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        _lanes: L,
         _grid: &Grid<2>,
         tile: [i32; 2],
         x: &[[f64; EIGHT]; 2],

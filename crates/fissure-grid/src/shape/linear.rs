@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::axes::Numbers;
 use crate::separable::{Line, Profile};
-use crate::simd::EIGHT;
+use crate::simd::{EIGHT, Lanes};
 use crate::{Grid, Separable, SeparableStencils, Shape};
 
 /// Multilinear functions of the particle's position (Sulsky, Chen & Schreyer 1994). The domain is not used.
@@ -32,14 +32,15 @@ impl<const D: usize> Shape<D> for Linear {
     }
 
     #[inline(always)]
-    fn stencils(
+    fn stencils<L: Lanes>(
         &self,
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(grid, tile, x, self)
+        SeparableStencils::new(lanes, grid, tile, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {

@@ -13,8 +13,6 @@ use crate::{Grid, TILE, WINDOW, WINDOW_START, sums_entry};
 const ROW: usize = WINDOW as usize;
 /// A number whose last bit counts ones: added to a whole number it leaves that in its last bits.
 const LAST_BIT_ONE: f64 = 4_503_599_627_370_496.0;
-/// Bits of a window index.
-const ENTRY: u64 = 511;
 /// Window stride of axis 2.
 const LAYER: usize = (WINDOW * WINDOW) as usize;
 
@@ -22,7 +20,7 @@ const LAYER: usize = (WINDOW * WINDOW) as usize;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparableStencils<const D: usize, const K: usize> {
     along: [Along<K>; D],
-    /// Window index of the lowest node, 0 if the particle does not fit.
+    /// Window index of the lowest node, in the last bits; any if the particle does not fit.
     base: [u64; EIGHT],
     fitting: u8,
 }
@@ -45,32 +43,35 @@ impl<const K: usize> Along<K> {
         moments: [[0.0; EIGHT]; K],
     };
 
-    /// Sets the weights along an axis and adds to `base` and `fits`.
+    /// Sets the weights along an axis. The place of the lowest node in the window, and a bit for each particle: whether it
+    /// is on the grid and its nodes in the window.
     #[inline(always)]
-    fn set<const D: usize>(
+    fn set<L: Lanes, const D: usize>(
         &mut self,
+        lanes: L,
         grid: &Grid<D>,
         axis: usize,
         tile: i32,
         x: &[[f64; EIGHT]; D],
         profile: &impl Profile<K>,
-        (base, fits): (&mut Numbers<EIGHT>, &mut Numbers<EIGHT>),
-    ) {
+    ) -> (Numbers<EIGHT>, u8) {
         let position = Numbers(x[axis]);
         let (cell, local) = grid.along(axis, position);
         let (first, values, slopes) = profile.line(local);
         let window = f64::from(TILE) * f64::from(tile) + f64::from(WINDOW_START);
         let start = cell + first + -window;
-        *fits = *fits
-            * start.within(0.0, f64::from(WINDOW) - K as f64)
-            * position.within(grid.origin()[axis], grid.max()[axis]);
-        *base = *base + start * (1 << (3 * axis)) as f64;
         let arm = (first - local) * grid.spacing();
         for k in 0..K {
             self.values[k] = values[k].0;
             self.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
             self.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
         }
+        // The position comes last, so that what is no number stays so.
+        let to_ends = start.min(-start + (f64::from(WINDOW) - K as f64));
+        let above = position + -grid.origin()[axis];
+        let below = -position + grid.max()[axis];
+        let fitting = lanes.not_negative(lanes.load(&to_ends.min(above).min(below).0));
+        (start, fitting)
     }
 
     /// Value times arm and slope of a node for one of the particles, each as often as a [`Gift`] has numbers that go by it.
@@ -110,31 +111,33 @@ fn node_columns<L: Lanes, const D: usize>(
 impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     /// Builds from the weights along an axis, given the particles' coordinates [0, 1] in their cells.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn new<L: Lanes>(
+        lanes: L,
         grid: &Grid<D>,
         tile: [i32; D],
         x: &[[f64; EIGHT]; D],
         profile: &impl Profile<K>,
     ) -> Self {
         let mut along = [Along::NOTHING; D];
-        let (mut base, mut fits) = (Numbers::splat(0.0), Numbers::splat(1.0));
         // Written out, so that no axis is a number at run time.
-        along[0].set(grid, 0, tile[0], x, profile, (&mut base, &mut fits));
+        let (mut base, mut fitting) = along[0].set(lanes, grid, 0, tile[0], x, profile);
         if D > 1 {
-            along[1 % D].set(grid, 1, tile[1 % D], x, profile, (&mut base, &mut fits));
+            let (start, fits) = along[1 % D].set(lanes, grid, 1, tile[1 % D], x, profile);
+            base = base + start * ROW as f64;
+            fitting &= fits;
         }
         if D > 2 {
-            along[2 % D].set(grid, 2, tile[2 % D], x, profile, (&mut base, &mut fits));
+            let (start, fits) = along[2 % D].set(lanes, grid, 2, tile[2 % D], x, profile);
+            base = base + start * LAYER as f64;
+            fitting &= fits;
         }
         let mut stencils = Self {
             along,
             base: [0; EIGHT],
-            fitting: 0,
+            fitting,
         };
-        let base = base * fits;
-        for place in 0..EIGHT {
-            stencils.base[place] = (base.0[place] + LAST_BIT_ONE).to_bits() & ENTRY;
-            stencils.fitting |= u8::from(fits.0[place] == 1.0) << place;
+        for (to, base) in stencils.base.iter_mut().zip((base + LAST_BIT_ONE).0) {
+            *to = base.to_bits();
         }
         stencils
     }
@@ -148,10 +151,10 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         }
     }
 
-    /// Window index of the lowest node, 0 if the particle does not fit.
+    /// Window index of the lowest node; that of some node if the particle does not fit.
     #[inline(always)]
     fn base(&self, place: usize) -> usize {
-        self.base[place] as usize
+        self.base[place] as usize & Self::LAST
     }
 
     /// Nodes along an axis; the axes that space has not have one.
@@ -159,6 +162,9 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     fn nodes(axis: usize) -> usize {
         if axis < D { K } else { 1 }
     }
+
+    /// The last window index.
+    const LAST: usize = (1 << (3 * D)) - 1;
 
     /// Nodes from the stencil's first to its last.
     const SPAN: usize = match D {
@@ -195,8 +201,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
             }
         }
         let sloped = lanes.load(&gift.sloped[0]);
-        let base = sums_entry(self.base(place));
-        let sums = &mut sums[base..base + Self::SUMS_SPAN];
+        let sums = &mut sums[sums_entry(self.base(place))..][..Self::SUMS_SPAN];
         for i in 0..rolled::<D>(K) {
             let w0 = self.along[0].values[i][place];
             let mut along_0 = lanes.mul(value, lanes.splat(w0));
@@ -260,6 +265,8 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         lanes: L,
         field: &[f64],
     ) -> Gathered<L::Eight, D> {
+        // So long that no particle's nodes have to be checked.
+        let field = &field[..FIELD * (Self::LAST + Self::SPAN)];
         let mut around = [&field[..0]; EIGHT];
         for (place, around) in around.iter_mut().enumerate() {
             *around = &field[FIELD * self.base(place)..][..FIELD * Self::SPAN];
@@ -306,10 +313,13 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         count: usize,
         sums: &mut [[f64; SUMS]],
     ) {
-        for (place, gift) in gifts.iter().enumerate().take(count) {
-            if self.fits(place) {
-                self.scatter_one::<L, E>(lanes, place, gift, sums);
-            }
+        // So long that no particle's nodes have to be checked.
+        let sums = &mut sums[..sums_entry(Self::LAST) + Self::SUMS_SPAN];
+        let mut left = self.fitting & (u8::MAX >> (EIGHT - count.clamp(1, EIGHT)));
+        while left != 0 {
+            let place = left.trailing_zeros() as usize % EIGHT;
+            self.scatter_one::<L, E>(lanes, place, &gifts[place], sums);
+            left &= left - 1;
         }
     }
 }

@@ -71,16 +71,15 @@ impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
             let Some(responses) = self.law.update_eight(&points) else {
                 continue;
             };
-            // A number times zero is zero, and what is none stays so.
-            let zero = lanes.splat(0.0);
-            let energy = lanes.mul(lanes.load(&responses.stored), zero);
-            let mut nothing = lanes.mul_add(lanes.load(&responses.wave_speed), zero, energy);
-            let mut stress = [zero; 6];
+            let (energy, speed) = (
+                lanes.load(&responses.stored),
+                lanes.load(&responses.wave_speed),
+            );
+            let mut stress = [energy; 6];
             for (column, numbers) in stress.iter_mut().zip(&responses.stress) {
                 *column = lanes.load(numbers);
-                nothing = lanes.mul_add(*column, zero, nothing);
             }
-            if !all_zero(lanes, nothing) {
+            if !all_finite(lanes, stress, energy, speed) {
                 continue;
             }
             answers.answered |= 1 << (first / EIGHT);
@@ -94,15 +93,36 @@ impl<M: Material, const D: usize> SimdTask for AskByEights<'_, '_, M, D> {
     }
 }
 
+/// Whether all of these are numbers.
 #[inline(always)]
-fn all_zero<L: Lanes>(lanes: L, numbers: L::Eight) -> bool {
+fn all_finite<L: Lanes>(
+    lanes: L,
+    [a, b, c, d, e, f]: [L::Eight; 6],
+    energy: L::Eight,
+    speed: L::Eight,
+) -> bool {
+    // In pairs, since one sum would be a long chain.
+    let pairs = [
+        nothing(lanes, a, b),
+        nothing(lanes, c, d),
+        nothing(lanes, e, f),
+        nothing(lanes, energy, speed),
+    ];
+    let sums = [lanes.add(pairs[0], pairs[1]), lanes.add(pairs[2], pairs[3])];
     let mut all = [1.0; EIGHT];
-    lanes.store(numbers, &mut all);
+    lanes.store(lanes.add(sums[0], sums[1]), &mut all);
     let mut zero = true;
     for number in all {
         zero &= number == 0.0;
     }
     zero
+}
+
+/// Zero where both are numbers: a number times zero is zero, and what is none stays so.
+#[inline(always)]
+fn nothing<L: Lanes>(lanes: L, a: L::Eight, b: L::Eight) -> L::Eight {
+    let zero = lanes.splat(0.0);
+    lanes.mul_add(a, zero, lanes.mul(b, zero))
 }
 
 /// Kinetic energies of some particles.

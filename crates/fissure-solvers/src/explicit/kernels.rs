@@ -14,7 +14,7 @@ use super::settings::Transfer;
 use crate::eight::{momentum_of, positions, read_matrices, read_symmetric};
 use crate::nodes::{Field, NodeSums};
 use crate::transfers::Transfers;
-use crate::window::{CUBE, SQUARE, WindowSums};
+use crate::window::{CUBE, CUBE_SUMS, SQUARE, SQUARE_SUMS, WindowSums};
 
 /// What particles give to the nodes at the end of a pass over them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,8 +66,8 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for StepKernel<'_, S, D> {
         work: &mut dyn FnMut(&mut dyn WindowKernel<D>) -> Result<(), KernelFailure>,
     ) -> Result<(), KernelFailure> {
         match D {
-            2 => self.on_window_of::<SQUARE, 64>(window, work),
-            _ => self.on_window_of::<CUBE, 512>(window, work),
+            2 => self.on_window_of::<SQUARE_SUMS, SQUARE>(window, work),
+            _ => self.on_window_of::<CUBE_SUMS, CUBE>(window, work),
         }
     }
 }
@@ -216,9 +216,9 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
             prefetch(lanes, first, constants, old, new);
             let x = positions(lanes, &old.position[first..]);
             let f = &old.deformation_gradient[first..];
-            let stencils = pass
-                .transfers
-                .stencils_at(&pass.half_edges, tile.coordinates, &x, f);
+            let stencils =
+                pass.transfers
+                    .stencils_at(lanes, &pass.half_edges, tile.coordinates, &x, f);
             if stencils.fitting() != u8::MAX {
                 let outside = rows.clone().find(|row| !stencils.fits(row - first));
                 return Err(outside.unwrap_or(first));
@@ -316,9 +316,9 @@ impl<S: Shape<D>, const D: usize> SimdTask for ScatterRun<'_, '_, '_, S, D> {
             // Without motion or strain in this pass the trial holds them from the pass before.
             let x = positions(lanes, &place.position[first..]);
             let f = &place.deformation_gradient[first..];
-            let stencils = pass
-                .transfers
-                .stencils_at(&pass.half_edges, tile.coordinates, &x, f);
+            let stencils =
+                pass.transfers
+                    .stencils_at(lanes, &pass.half_edges, tile.coordinates, &x, f);
             let rows = first..(first + EIGHT).min(new.len());
             let has_affine = pass.is_affine() && !velocity.affine.is_empty();
             let affine = has_affine.then(|| &velocity.affine[first..]);

@@ -1,12 +1,21 @@
 //! What is stored particle by particle, brought to vector units component by component.
 
 use nalgebra::SMatrix;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::{EIGHT, Lanes};
 use crate::Sym;
 
 /// Some numbers that stand in a row.
-pub trait Row {
+pub trait Row: Sized {
+    /// The numbers of eight rows one after another, if a type is nothing but its numbers.
+    fn side_by_side(_rows: &[Self; EIGHT]) -> Option<&[f64]> {
+        None
+    }
+    /// The same, to write.
+    fn side_by_side_mut(_rows: &mut [Self; EIGHT]) -> Option<&mut [f64]> {
+        None
+    }
     /// To read.
     fn numbers(&self) -> &[f64];
     /// To write.
@@ -15,6 +24,14 @@ pub trait Row {
 
 /// Column by column.
 impl<const R: usize, const C: usize> Row for SMatrix<f64, R, C> {
+    #[inline(always)]
+    fn side_by_side(rows: &[Self; EIGHT]) -> Option<&[f64]> {
+        Some(cast_slice(rows))
+    }
+    #[inline(always)]
+    fn side_by_side_mut(rows: &mut [Self; EIGHT]) -> Option<&mut [f64]> {
+        Some(cast_slice_mut(rows))
+    }
     #[inline(always)]
     fn numbers(&self) -> &[f64] {
         self.as_slice()
@@ -111,6 +128,24 @@ pub fn write_columns<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mu
 
 #[inline(always)]
 fn read_eight<L: Lanes, T: Row>(lanes: L, rows: &[T; EIGHT], columns: &mut [L::Eight]) {
+    if let Some(numbers) = T::side_by_side(rows)
+        && numbers.len() == EIGHT * columns.len()
+    {
+        // Which of them is known when this is compiled.
+        if let (Ok(two), Ok(rows)) = (<&mut [_; 2]>::try_from(&mut *columns), numbers.try_into()) {
+            *two = lanes.unzip2(rows);
+            return;
+        }
+        if let (Ok(three), Ok(rows)) = (<&mut [_; 3]>::try_from(&mut *columns), numbers.try_into())
+        {
+            *three = lanes.unzip3(rows);
+            return;
+        }
+        if let (Ok(four), Ok(rows)) = (<&mut [_; 4]>::try_from(&mut *columns), numbers.try_into()) {
+            *four = lanes.unzip4(rows);
+            return;
+        }
+    }
     let mut c = 0;
     while c + 4 <= columns.len() {
         let four = chunks(flat(rows), c);
@@ -122,7 +157,11 @@ fn read_eight<L: Lanes, T: Row>(lanes: L, rows: &[T; EIGHT], columns: &mut [L::E
         columns[c..c + 2].copy_from_slice(&lanes.columns2(two));
         c += 2;
     }
-    if c < columns.len() {
+    if c < columns.len() && c > 0 {
+        // With the number before it: eight single ones would be read by a slow instruction.
+        let [_, last] = lanes.columns2(chunks(flat(rows), c - 1));
+        columns[c] = last;
+    } else if c < columns.len() {
         let mut ones = [0.0; EIGHT];
         for (one, row) in ones.iter_mut().zip(rows) {
             *one = row.numbers()[c];
@@ -133,6 +172,19 @@ fn read_eight<L: Lanes, T: Row>(lanes: L, rows: &[T; EIGHT], columns: &mut [L::E
 
 #[inline(always)]
 fn write_eight<L: Lanes, T: Row>(lanes: L, columns: &[L::Eight], rows: &mut [T; EIGHT]) {
+    if let Some(numbers) = T::side_by_side_mut(rows)
+        && numbers.len() == EIGHT * columns.len()
+    {
+        if let (&[a, b], Ok(rows)) = (columns, <&mut [_; 16]>::try_from(&mut *numbers)) {
+            return lanes.zip2([a, b], rows);
+        }
+        if let (&[a, b, c], Ok(rows)) = (columns, <&mut [_; 24]>::try_from(&mut *numbers)) {
+            return lanes.zip3([a, b, c], rows);
+        }
+        if let (&[a, b, c, d], Ok(rows)) = (columns, numbers.try_into()) {
+            return lanes.zip4([a, b, c, d], rows);
+        }
+    }
     let mut c = 0;
     while c + 4 <= columns.len() {
         let four = [columns[c], columns[c + 1], columns[c + 2], columns[c + 3]];
@@ -180,6 +232,19 @@ pub fn chunks<const N: usize>(rows: [&[f64]; EIGHT], at: usize) -> [&[f64; N]; E
         }
     }
     chunks
+}
+
+/// N numbers of each of eight rows that stand side by side, from `at` on.
+#[inline(always)]
+pub(super) fn parts<const N: usize, const M: usize>(
+    rows: &[f64; M],
+    at: usize,
+) -> [&[f64; N]; EIGHT] {
+    let mut each = [&rows[..0]; EIGHT];
+    for (each, row) in each.iter_mut().zip(rows.chunks_exact(M / EIGHT)) {
+        *each = row;
+    }
+    chunks(each, at)
 }
 
 #[inline(always)]

@@ -74,6 +74,14 @@ impl Lanes for Plain {
         out
     }
     #[inline(always)]
+    fn not_negative(self, x: [f64; 8]) -> u8 {
+        let mut bits = 0;
+        for (place, x) in x.iter().enumerate() {
+            bits |= u8::from(*x >= 0.0) << place;
+        }
+        bits
+    }
+    #[inline(always)]
     fn transpose(self, rows: [[f64; 8]; 8]) -> [[f64; 8]; 8] {
         turned(&rows)
     }

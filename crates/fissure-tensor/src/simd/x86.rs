@@ -1,6 +1,6 @@
 //! Eight numbers on AVX-512, and as two times four on AVX2.
 
-use std::arch::x86_64::_MM_HINT_T0;
+use std::arch::x86_64::{_CMP_GE_OQ, _MM_HINT_T0};
 
 use pulp::x86::{V3, V4};
 use pulp::{Simd as _, cast, f64x2, f64x4, f64x8};
@@ -52,23 +52,26 @@ impl Lanes for V4 {
         self.max_f64s(a, b)
     }
     #[inline(always)]
+    fn not_negative(self, x: f64x8) -> u8 {
+        let zero = cast(self.splat_f64x8(0.0));
+        self.avx512f._mm512_cmp_pd_mask::<_CMP_GE_OQ>(cast(x), zero)
+    }
+    #[inline(always)]
     fn transpose(self, r: [f64x8; 8]) -> [f64x8; 8] {
         let (a, b) = (
             self.columns_of_four([r[0], r[1], r[2], r[3]]),
             self.columns_of_four([r[4], r[5], r[6], r[7]]),
         );
         // Each of these holds a column of its lower half and one of its upper half.
-        let low = |k: usize| self.halves::<0b01_00_01_00>(a[k], b[k]);
-        let high = |k: usize| self.halves::<0b11_10_11_10>(a[k], b[k]);
         [
-            low(0),
-            low(1),
-            low(2),
-            low(3),
-            high(0),
-            high(1),
-            high(2),
-            high(3),
+            self.low_halves(a[0], b[0]),
+            self.low_halves(a[1], b[1]),
+            self.low_halves(a[2], b[2]),
+            self.low_halves(a[3], b[3]),
+            self.high_halves(a[0], b[0]),
+            self.high_halves(a[1], b[1]),
+            self.high_halves(a[2], b[2]),
+            self.high_halves(a[3], b[3]),
         ]
     }
     #[inline(always)]
@@ -111,6 +114,73 @@ impl Lanes for V4 {
         [a[0], b[0], a[1], b[1], c[0], d[0], c[1], d[1]]
     }
     #[inline(always)]
+    fn unzip2(self, rows: &[f64; 16]) -> [f64x8; 2] {
+        let [a, b] = cast(*rows);
+        [
+            self.picked(a, [0, 2, 4, 6, 8, 10, 12, 14], b),
+            self.picked(a, [1, 3, 5, 7, 9, 11, 13, 15], b),
+        ]
+    }
+    #[inline(always)]
+    fn unzip3(self, rows: &[f64; 24]) -> [f64x8; 3] {
+        let [a, b, c] = cast(*rows);
+        // Of each column first what is in the first two registers, then what is in the third.
+        let x = self.picked(a, [0, 3, 6, 9, 12, 15, 0, 0], b);
+        let y = self.picked(a, [1, 4, 7, 10, 13, 0, 0, 0], b);
+        let z = self.picked(a, [2, 5, 8, 11, 14, 0, 0, 0], b);
+        [
+            self.picked(x, [0, 1, 2, 3, 4, 5, 10, 13], c),
+            self.picked(y, [0, 1, 2, 3, 4, 8, 11, 14], c),
+            self.picked(z, [0, 1, 2, 3, 4, 9, 12, 15], c),
+        ]
+    }
+    #[inline(always)]
+    fn unzip4(self, rows: &[f64; 32]) -> [f64x8; 4] {
+        let [a, b, c, d] = cast(*rows);
+        const LOW: [u64; 8] = [0, 4, 8, 12, 1, 5, 9, 13];
+        const HIGH: [u64; 8] = [2, 6, 10, 14, 3, 7, 11, 15];
+        let (ab, cd) = (self.picked(a, LOW, b), self.picked(c, LOW, d));
+        let (ab_2, cd_2) = (self.picked(a, HIGH, b), self.picked(c, HIGH, d));
+        [
+            self.low_halves(ab, cd),
+            self.high_halves(ab, cd),
+            self.low_halves(ab_2, cd_2),
+            self.high_halves(ab_2, cd_2),
+        ]
+    }
+    #[inline(always)]
+    fn zip2(self, [a, b]: [f64x8; 2], to: &mut [f64; 16]) {
+        *to = cast([
+            self.picked(a, [0, 8, 1, 9, 2, 10, 3, 11], b),
+            self.picked(a, [4, 12, 5, 13, 6, 14, 7, 15], b),
+        ]);
+    }
+    #[inline(always)]
+    fn zip3(self, [x, y, z]: [f64x8; 3], to: &mut [f64; 24]) {
+        // What the first two columns give to each register, then what the third does.
+        let a = self.picked(x, [0, 8, 0, 1, 9, 0, 2, 10], y);
+        let b = self.picked(x, [0, 3, 11, 0, 4, 12, 0, 5], y);
+        let c = self.picked(x, [13, 0, 6, 14, 0, 7, 15, 0], y);
+        *to = cast([
+            self.picked(a, [0, 1, 8, 3, 4, 9, 6, 7], z),
+            self.picked(b, [10, 1, 2, 11, 4, 5, 12, 7], z),
+            self.picked(c, [0, 13, 2, 3, 14, 5, 6, 15], z),
+        ]);
+    }
+    #[inline(always)]
+    fn zip4(self, [a, b, c, d]: [f64x8; 4], to: &mut [f64; 32]) {
+        const LOW: [u64; 8] = [0, 4, 8, 12, 1, 5, 9, 13];
+        const HIGH: [u64; 8] = [2, 6, 10, 14, 3, 7, 11, 15];
+        let (ab, cd) = (self.low_halves(a, b), self.low_halves(c, d));
+        let (ab_2, cd_2) = (self.high_halves(a, b), self.high_halves(c, d));
+        *to = cast([
+            self.picked(ab, LOW, cd),
+            self.picked(ab, HIGH, cd),
+            self.picked(ab_2, LOW, cd_2),
+            self.picked(ab_2, HIGH, cd_2),
+        ]);
+    }
+    #[inline(always)]
     fn prefetch(self, address: *const u8) {
         self.sse._mm_prefetch::<_MM_HINT_T0>(address.cast());
     }
@@ -124,8 +194,12 @@ trait Shuffle512: Copy {
     fn split(self, x: f64x8) -> [f64x4; 2];
     /// `a0 b0 a2 b2 …` and `a1 b1 a3 b3 …`.
     fn interleaved(self, a: f64x8, b: f64x8) -> [f64x8; 2];
-    /// Two pairs of `a`, then two of `b`, by their numbers.
-    fn halves<const PAIRS: i32>(self, a: f64x8, b: f64x8) -> f64x8;
+    /// The lower half of each.
+    fn low_halves(self, a: f64x8, b: f64x8) -> f64x8;
+    /// The upper half of each.
+    fn high_halves(self, a: f64x8, b: f64x8) -> f64x8;
+    /// Numbers of `a` (from 0 on) and of `b` (from 8 on) by their places.
+    fn picked(self, a: f64x8, places: [u64; 8], b: f64x8) -> f64x8;
     /// Number k of four rows, then number 4 + k of them, for k from 0 to 3; its own inverse.
     fn columns_of_four(self, rows: [f64x8; 4]) -> [f64x8; 4];
 }
@@ -151,9 +225,19 @@ impl Shuffle512 for V4 {
         ]
     }
     #[inline(always)]
-    fn halves<const PAIRS: i32>(self, a: f64x8, b: f64x8) -> f64x8 {
+    fn low_halves(self, a: f64x8, b: f64x8) -> f64x8 {
         let (a, b) = (cast(a), cast(b));
-        cast(self.avx512f._mm512_shuffle_f64x2::<PAIRS>(a, b))
+        cast(self.avx512f._mm512_shuffle_f64x2::<0b01_00_01_00>(a, b))
+    }
+    #[inline(always)]
+    fn high_halves(self, a: f64x8, b: f64x8) -> f64x8 {
+        let (a, b) = (cast(a), cast(b));
+        cast(self.avx512f._mm512_shuffle_f64x2::<0b11_10_11_10>(a, b))
+    }
+    #[inline(always)]
+    fn picked(self, a: f64x8, places: [u64; 8], b: f64x8) -> f64x8 {
+        let (a, b) = (cast(a), cast(b));
+        cast(self.avx512f._mm512_permutex2var_pd(a, cast(places), b))
     }
     #[inline(always)]
     fn columns_of_four(self, rows: [f64x8; 4]) -> [f64x8; 4] {
@@ -161,16 +245,11 @@ impl Shuffle512 for V4 {
         const HIGH: [u64; 8] = [2, 3, 10, 11, 6, 7, 14, 15];
         let [even, odd] = self.interleaved(rows[0], rows[1]);
         let [even_2, odd_2] = self.interleaved(rows[2], rows[3]);
-        let pick = |a: f64x8, places: [u64; 8], b: f64x8| -> f64x8 {
-            let (a, b) = (cast(a), cast(b));
-            let places = cast(places);
-            cast(self.avx512f._mm512_permutex2var_pd(a, places, b))
-        };
         [
-            pick(even, LOW, even_2),
-            pick(odd, LOW, odd_2),
-            pick(even, HIGH, even_2),
-            pick(odd, HIGH, odd_2),
+            self.picked(even, LOW, even_2),
+            self.picked(odd, LOW, odd_2),
+            self.picked(even, HIGH, even_2),
+            self.picked(odd, HIGH, odd_2),
         ]
     }
 }
@@ -222,16 +301,16 @@ impl Lanes for V3 {
         [self.max_f64s(a[0], b[0]), self.max_f64s(a[1], b[1])]
     }
     #[inline(always)]
+    fn not_negative(self, x: [f64x4; 2]) -> u8 {
+        self.not_negative4(x[0]) | self.not_negative4(x[1]) << 4
+    }
+    #[inline(always)]
     fn transpose(self, r: [[f64x4; 2]; 8]) -> [[f64x4; 2]; 8] {
-        let block = |half: usize, first: usize| {
-            self.turned([
-                r[first][half],
-                r[first + 1][half],
-                r[first + 2][half],
-                r[first + 3][half],
-            ])
-        };
-        let (a, b, c, d) = (block(0, 0), block(0, 4), block(1, 0), block(1, 4));
+        // The four blocks of the matrix.
+        let a = self.turned([r[0][0], r[1][0], r[2][0], r[3][0]]);
+        let b = self.turned([r[4][0], r[5][0], r[6][0], r[7][0]]);
+        let c = self.turned([r[0][1], r[1][1], r[2][1], r[3][1]]);
+        let d = self.turned([r[4][1], r[5][1], r[6][1], r[7][1]]);
         [
             [a[0], b[0]],
             [a[1], b[1]],
@@ -286,6 +365,12 @@ impl Lanes for V3 {
 
 /// Shuffles of AVX2.
 trait Shuffle256: Copy {
+    /// A bit for each number: whether it is zero or more.
+    fn not_negative4(self, x: f64x4) -> u8;
+    /// The lower half of each.
+    fn low_halves4(self, a: f64x4, b: f64x4) -> f64x4;
+    /// The upper half of each.
+    fn high_halves4(self, a: f64x4, b: f64x4) -> f64x4;
     /// One half and the other.
     fn joined2(self, low: [f64; 2], high: [f64; 2]) -> f64x4;
     /// The halves.
@@ -297,6 +382,22 @@ trait Shuffle256: Copy {
 }
 
 impl Shuffle256 for V3 {
+    #[inline(always)]
+    fn not_negative4(self, x: f64x4) -> u8 {
+        let zero = cast(self.splat_f64x4(0.0));
+        let mask = self.avx._mm256_cmp_pd::<_CMP_GE_OQ>(cast(x), zero);
+        self.avx._mm256_movemask_pd(mask) as u8
+    }
+    #[inline(always)]
+    fn low_halves4(self, a: f64x4, b: f64x4) -> f64x4 {
+        let (a, b) = (cast(a), cast(b));
+        cast(self.avx._mm256_permute2f128_pd::<0x20>(a, b))
+    }
+    #[inline(always)]
+    fn high_halves4(self, a: f64x4, b: f64x4) -> f64x4 {
+        let (a, b) = (cast(a), cast(b));
+        cast(self.avx._mm256_permute2f128_pd::<0x31>(a, b))
+    }
     #[inline(always)]
     fn joined2(self, low: [f64; 2], high: [f64; 2]) -> f64x4 {
         let low: f64x2 = cast(low);
@@ -322,19 +423,11 @@ impl Shuffle256 for V3 {
     fn turned(self, rows: [f64x4; 4]) -> [f64x4; 4] {
         let [even, odd] = self.interleaved(rows[0], rows[1]);
         let [even_2, odd_2] = self.interleaved(rows[2], rows[3]);
-        let low = |a: f64x4, b: f64x4| -> f64x4 {
-            let (a, b) = (cast(a), cast(b));
-            cast(self.avx._mm256_permute2f128_pd::<0x20>(a, b))
-        };
-        let high = |a: f64x4, b: f64x4| -> f64x4 {
-            let (a, b) = (cast(a), cast(b));
-            cast(self.avx._mm256_permute2f128_pd::<0x31>(a, b))
-        };
         [
-            low(even, even_2),
-            low(odd, odd_2),
-            high(even, even_2),
-            high(odd, odd_2),
+            self.low_halves4(even, even_2),
+            self.low_halves4(odd, odd_2),
+            self.high_halves4(even, even_2),
+            self.high_halves4(odd, odd_2),
         ]
     }
 }
