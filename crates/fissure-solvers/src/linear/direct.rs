@@ -34,6 +34,8 @@ const SOLVED: f64 = 1e-6;
 const REFINED: f64 = 1e-10;
 /// Most steps of refinement.
 const REFINEMENTS: usize = 4;
+/// By how much a solution by the factor of the symmetric part has to lower the residual, or GMRES does it with fewer.
+const PAYS: f64 = 1e-2;
 
 /// Most products of GMRES with the factor of a symmetric part, before the matrix is factorised itself.
 const MOST_PRODUCTS: usize = 60;
@@ -299,28 +301,38 @@ impl<const D: usize> Direct<D> {
             damping: self.damping,
         };
         let mut x = vec![0.0; wanted.len()];
-        if !self.symmetric && self.factor != Some(Factor::Lu) {
+        let mut solved = self.refine(&mut operator, wanted, &mut x)?;
+        let of_symmetric_part = !self.symmetric && self.factor != Some(Factor::Lu);
+        if of_symmetric_part && !(solved.residual <= REFINED) {
             let settings = KrylovSettings {
                 tolerance: REFINED,
                 max_iterations: MOST_PRODUCTS,
                 restart: MOST_PRODUCTS,
             };
             let Ok(outcome) = gmres(&mut operator, self, wanted, &mut x, &settings);
-            let solved = Solved {
-                residual: outcome.residual,
-                refinements: outcome.iterations,
-            };
-            return Ok((x, solved));
+            solved.residual = outcome.residual;
+            solved.refinements += outcome.iterations;
         }
+        Ok((x, solved))
+    }
+
+    /// Solves by the factor again and again, as long as it pays. Of a matrix that is nearly symmetric the factor of its
+    /// symmetric part does in two solutions what takes GMRES three.
+    fn refine(
+        &self,
+        operator: &mut Scaled<'_, D>,
+        wanted: &[f64],
+        x: &mut Vec<f64>,
+    ) -> Result<Solved, LinearError> {
         let size = norm(wanted);
         let mut solved = Solved {
             residual: 0.0,
             refinements: 0,
         };
         if size == 0.0 {
-            return Ok((x, solved));
+            return Ok(solved);
         }
-        solved.residual = f64::INFINITY;
+        solved.residual = 1.0;
         let mut rest = wanted.to_vec();
         let mut refined = x.clone();
         for refinements in 0..=REFINEMENTS {
@@ -332,16 +344,17 @@ impl<const D: usize> Direct<D> {
             if !(residual < solved.residual) {
                 break;
             }
+            let pays = self.symmetric || residual < PAYS * solved.residual;
             x.clone_from(&refined);
             solved = Solved {
                 residual,
                 refinements,
             };
-            if residual <= REFINED {
+            if residual <= REFINED || !pays {
                 break;
             }
         }
-        Ok((x, solved))
+        Ok(solved)
     }
 
     fn back_substitute(&self, x: &mut [f64]) -> Result<(), LinearError> {
