@@ -9,10 +9,10 @@ mod own_law;
 
 use fissure::prelude::*;
 
-pub use own_law::OwnLaw;
+pub use own_law::{OneByOne, OwnLaw};
 
-/// Fills a block with a law by its name: `isotropic`, `decohesive` (that stays sound), `own` and `own-eights`
-/// ([`OwnLaw`]), or neo-Hookean for any other; sets it in motion.
+/// Fills a block with a law by its name: `isotropic`, `decohesive` (that stays sound), `own` ([`OwnLaw`]) and
+/// `own-by-one` (the same without its answers by eights), or neo-Hookean for any other; sets it in motion.
 ///
 /// # Errors
 /// What the scene refuses.
@@ -28,7 +28,11 @@ pub fn fill<const D: usize>(
         young: 1e6,
         poisson: 0.3,
     };
-    let (lambda, shear) = (elastic.lambda(), elastic.shear_modulus());
+    let own = Hyperelastic(OwnLaw {
+        density: elastic.density,
+        lambda: elastic.lambda(),
+        shear: elastic.shear_modulus(),
+    });
     match law {
         "isotropic" => scene.fill("block", elastic, block, &spacing)?,
         "decohesive" => {
@@ -41,22 +45,8 @@ pub fn fill<const D: usize>(
             };
             scene.fill("block", law, block, &spacing)?
         }
-        "own" => {
-            let law = OwnLaw::<false> {
-                density: 1000.0,
-                lambda,
-                shear,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
-        "own-eights" => {
-            let law = OwnLaw::<true> {
-                density: 1000.0,
-                lambda,
-                shear,
-            };
-            scene.fill("block", law, block, &spacing)?
-        }
+        "own" => scene.fill("block", own, block, &spacing)?,
+        "own-by-one" => scene.fill("block", OneByOne(own), block, &spacing)?,
         _ => {
             let law = NeoHookean {
                 density: 1000.0,

@@ -87,7 +87,7 @@ fn cases(quick: bool) -> Vec<(Case, usize)> {
             1,
         ));
     }
-    for law in ["own-eights", "own", "isotropic", "decohesive"] {
+    for law in ["own", "own-by-one", "isotropic", "decohesive"] {
         cases.push((Case { law, ..ELASTIC }, 1));
     }
     cases
