@@ -4,10 +4,12 @@
 //! fused multiply-add, and plainly; [`Simd::run`] picks one. The two fused ones give the same bits. The plain one
 //! rounds products before it adds them, so its results differ in the last place.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod columns;
 mod plain;
-#[cfg(target_arch = "x86_64")]
-mod x86;
 
 use std::hint::black_box;
 
