@@ -10,6 +10,7 @@ use std::f64::consts::SQRT_2;
 use fissure_tensor::{Matrix3, Sym, Tangent, Vector3, polar, solve_lyapunov};
 
 use crate::MaterialError;
+use crate::finite_strain::rows;
 
 /// Kinematics of one deformation gradient for laws written on the Biot strain.
 #[derive(Clone, Copy, Debug)]
@@ -55,9 +56,7 @@ impl Biot {
     /// reference configuration into a bound of that of the current one.
     #[inline]
     pub fn longest_stretch(f: &Matrix3<f64>) -> f64 {
-        Self::longest_stretch_of_rows([
-            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
-        ])
+        Self::longest_stretch_of_rows(rows(f))
     }
 
     /// The same from the components, row by row; without branches and calls.

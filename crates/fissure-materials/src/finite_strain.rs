@@ -27,9 +27,7 @@ impl LeftStrain {
     /// [`MaterialError::Deformation`] unless `F` is finite with positive determinant.
     #[inline(always)]
     pub fn new(f: &Matrix3<f64>) -> Result<Self, MaterialError> {
-        let (strain, sound) = Self::of_rows([
-            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
-        ]);
+        let (strain, sound) = Self::of_rows(rows(f));
         if sound {
             Ok(strain)
         } else {
@@ -42,16 +40,10 @@ impl LeftStrain {
     /// positive determinant; without branches.
     #[inline(always)]
     pub fn of_rows(rows: [f64; 9]) -> (Self, bool) {
-        let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = rows;
-        let determinant =
-            xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
         let (strain, square) = Self::unchecked(rows);
         // `J` is had in two ways, which round apart: next to a singular gradient either may be zero
         // or less while the other is not. A component that is not finite makes the square so.
-        let sound = (determinant > 0.0)
-            & (determinant < f64::INFINITY)
-            & (strain.dilation > -1.0)
-            & (square < f64::INFINITY);
+        let sound = keeps_orientation(rows) & (strain.dilation > -1.0) & (square < f64::INFINITY);
         (strain, sound)
     }
 
@@ -89,9 +81,7 @@ impl LeftStrain {
     /// an isotropic law. `None` where `|b − 1|` is over 0.1, or `F` is not finite or turns space inside out.
     #[inline(always)]
     pub fn small(f: &Matrix3<f64>) -> Option<(Sym, f64)> {
-        let (strain, _) = Self::unchecked([
-            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
-        ]);
+        let (strain, _) = Self::unchecked(rows(f));
         // J is near one or minus one where b is near the identity.
         let root = strain.excess.root_of_one_plus()?;
         (strain.dilation > -1.0).then_some((root, strain.dilation))
@@ -125,6 +115,23 @@ impl LeftStrain {
     pub fn log_jacobian(&self) -> f64 {
         log_of_one_plus(self.dilation).0
     }
+}
+
+/// Components of a matrix, row by row.
+#[inline(always)]
+pub(crate) fn rows(f: &Matrix3<f64>) -> [f64; 9] {
+    [
+        f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
+    ]
+}
+
+/// Whether the determinant of a deformation gradient, given row by row and rounded as nalgebra does, is positive and finite;
+/// without branches.
+#[inline(always)]
+pub(crate) fn keeps_orientation([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> bool {
+    let determinant =
+        xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
+    (determinant > 0.0) & (determinant < f64::INFINITY)
 }
 
 /// `ln(1 + x)` and `x − ln(1 + x)`, the latter to round-off of its second order; `x > −1`.

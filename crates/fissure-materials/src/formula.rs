@@ -2,6 +2,8 @@
 
 use fissure_tensor::{Matrix3, Sym};
 
+use crate::finite_strain::{keeps_orientation, rows};
+use crate::isotropic::check_deformation;
 use crate::{
     EIGHT, EightPoints, EightResponses, Increment, Material, MaterialError, Response, Scale,
     check_parameter,
@@ -81,24 +83,6 @@ pub struct FormulaAnswer {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hyperelastic<F>(pub F);
 
-impl<F: Formula> Hyperelastic<F> {
-    /// The answer, and the determinant of the deformation gradient.
-    #[inline(always)]
-    fn answer(&self, f: [f64; 9], stiffness: f64) -> (FormulaAnswer, f64) {
-        let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = f;
-        let determinant =
-            xx * (yy * zz - yz * zy) - xy * (yx * zz - yz * zx) + xz * (yx * zy - yy * zx);
-        (self.0.answer(f, stiffness), determinant)
-    }
-}
-
-#[inline(always)]
-fn rows(f: &Matrix3<f64>) -> [f64; 9] {
-    [
-        f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
-    ]
-}
-
 impl<F: Formula + Send + Sync + 'static> Material for Hyperelastic<F> {
     type State = ();
     const STRESS_FROM_GRADIENT: bool = true;
@@ -122,11 +106,9 @@ impl<F: Formula + Send + Sync + 'static> Material for Hyperelastic<F> {
 
     #[inline(always)] // A call would copy the increment.
     fn update(&self, increment: &Increment, _: &()) -> Result<Response<()>, MaterialError> {
+        check_deformation(increment)?;
         let stiffness = increment.external.scale.stiffness;
-        let (answer, determinant) = self.answer(rows(&increment.f_new), stiffness);
-        if !(determinant > 0.0 && determinant < f64::INFINITY) {
-            return Err(MaterialError::Deformation { determinant });
-        }
+        let answer = self.0.answer(rows(&increment.f_new), stiffness);
         Ok(Response {
             stress: answer.stress,
             state: (),
@@ -140,9 +122,9 @@ impl<F: Formula + Send + Sync + 'static> Material for Hyperelastic<F> {
         let mut responses = EightResponses::default();
         let mut all_sound = true;
         for place in 0..EIGHT {
-            let stiffness = points.stiffness[place];
-            let (answer, determinant) = self.answer(points.gradient(place), stiffness);
-            all_sound &= (determinant > 0.0) & (determinant < f64::INFINITY);
+            let f = points.gradient(place);
+            let answer = self.0.answer(f, points.stiffness[place]);
+            all_sound &= keeps_orientation(f);
             responses.set(place, &answer.stress, answer.stored, answer.wave_speed);
         }
         all_sound.then_some(responses)

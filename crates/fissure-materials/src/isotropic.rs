@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use fissure_tensor::{Matrix3, Sym, Tangent};
 
+use crate::finite_strain::keeps_orientation;
 use crate::{
     EIGHT, EightPoints, EightResponses, Increment, Material, MaterialError, Response, Scale,
     SheetStep, check_parameter,
@@ -126,10 +127,9 @@ impl Material for Isotropic {
         let mut responses = EightResponses::default();
         let mut all_sound = true;
         for place in 0..EIGHT {
-            let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = points.gradient(place);
-            let determinant =
-                xx * (yy * zz - zy * yz) - xy * (yx * zz - zx * yz) + xz * (yx * zy - zx * yy);
-            all_sound &= (determinant > 0.0) & (determinant < f64::INFINITY);
+            let f = points.gradient(place);
+            all_sound &= keeps_orientation(f);
+            let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = f;
             let strain = Sym {
                 mandel: [
                     xx - 1.0,

@@ -6,7 +6,7 @@
 
 use fissure_tensor::{Matrix3, Sym, Tangent};
 
-use crate::finite_strain::{LeftStrain, log_of_one_plus};
+use crate::finite_strain::{LeftStrain, log_of_one_plus, rows};
 use crate::{
     EIGHT, EightPoints, EightResponses, Increment, Isotropic, Material, MaterialError, Response,
     Scale, SheetStep,
@@ -118,9 +118,7 @@ impl Material for NeoHookean {
     #[inline(always)]
     fn wave_speed(&self, f: &Matrix3<f64>, _state: &(), scale: &Scale) -> f64 {
         let constants = self.constants().scaled(scale.stiffness);
-        let strain = LeftStrain::of_rows([
-            f.m11, f.m12, f.m13, f.m21, f.m22, f.m23, f.m31, f.m32, f.m33,
-        ]);
+        let strain = LeftStrain::of_rows(rows(f));
         constants.wave_speed(&strain.0)
     }
 

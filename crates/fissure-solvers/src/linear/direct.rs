@@ -300,8 +300,7 @@ impl<const D: usize> Direct<D> {
             scale: &self.scale,
             damping: self.damping,
         };
-        let mut x = vec![0.0; wanted.len()];
-        let mut solved = self.refine(&mut operator, wanted, &mut x)?;
+        let (mut x, mut solved) = self.refine(&mut operator, wanted)?;
         let of_symmetric_part = !self.symmetric && self.factor != Some(Factor::Lu);
         if of_symmetric_part && !(solved.residual <= REFINED) {
             let settings = KrylovSettings {
@@ -322,15 +321,15 @@ impl<const D: usize> Direct<D> {
         &self,
         operator: &mut Scaled<'_, D>,
         wanted: &[f64],
-        x: &mut Vec<f64>,
-    ) -> Result<Solved, LinearError> {
+    ) -> Result<(Vec<f64>, Solved), LinearError> {
+        let mut x = vec![0.0; wanted.len()];
         let size = norm(wanted);
         let mut solved = Solved {
             residual: 0.0,
             refinements: 0,
         };
         if size == 0.0 {
-            return Ok(solved);
+            return Ok((x, solved));
         }
         solved.residual = 1.0;
         let mut rest = wanted.to_vec();
@@ -354,7 +353,7 @@ impl<const D: usize> Direct<D> {
                 break;
             }
         }
-        Ok(solved)
+        Ok((x, solved))
     }
 
     fn back_substitute(&self, x: &mut [f64]) -> Result<(), LinearError> {
