@@ -4,37 +4,39 @@
 //!
 //! * A [`Grid`] is a box cut into equal square or cubic cells. It stores no nodes; it knows where node `[i, j, k]`
 //!   would be and which cell owns a point.
-//! * A **tile** is a block of [`TILE`]`^D` = 4^D cells and as many nodes: tile `t` holds nodes `4t ..= 4t + 3` along an
-//!   axis. [`Tiles`] lists the tiles near particles; memory is spent there and nowhere else. A node is addressed
-//!   by `tile · 4^D + local`, the local index running fastest along axis 0.
-//! * The **window** of a tile is the [`WINDOW`]`^D` = 8^D nodes its particles may touch: nodes `4t − 2 ..= 4t + 5`.
-//!   A solver gathers a window into a small dense array, works there, and writes it back; [`window_map`] says
+//! * A **tile** is a block of `n` cells along each axis, four or eight ([`TileSize`]), and as many nodes: tile `t` holds
+//!   nodes `nt ..= nt + n − 1` along an axis. [`Tiles`] lists the tiles near particles; memory is spent there and nowhere
+//!   else. A node is addressed by `tile · n^D + local`, the local index running fastest along axis 0.
+//! * The **window** of a tile is the `(n + 4)^D` nodes its particles may touch: nodes `nt − 2 ..= nt + n + 1`.
+//!   A solver gathers a [`Window`] into a small dense array, works there, and writes it back; [`Tiles::map`] says
 //!   which of the 3^D surrounding tiles owns each entry.
 //! * A [`Stencil`] is one particle's list of (window index, weight N, gradient ∇N). A [`Shape`] makes it.
 //!
 //! ```text
-//!    window of tile t   ·  ·  [·  ·  ·  ·] ·  ·        index k   0 1 2 3 4 5 6 7
+//!    window of tile t   ·  ·  [·  ·  ·  ·] ·  ·        place k   0 1 2 3 4 5 6 7
 //!                              tile t                  node      4t−2  …   4t+5
 //! ```
 //!
 //! ```
-//! use fissure_grid::{Grid, Shape, Stencil, Tiles, shape, tile_of, window_map};
+//! use fissure_grid::{Grid, Shape, Stencil, TileSize, Tiles, shape, tile_of};
 //! use nalgebra::{Matrix2, Vector2};
 //!
 //! let grid = Grid::over([0.0, 0.0], [1.0, 0.5], 0.05)?;
 //! let x = Vector2::new(0.52, 0.26); // one particle, 2 per cell along each axis
 //! let domain = Matrix2::identity() * 0.0125;
 //!
-//! let tile = grid.cell(&x).map(tile_of).ok_or("outside")?;
+//! let size = TileSize::Narrow;
+//! let home = tile_of(grid.cell(&x).ok_or("outside")?, size.cells::<2>());
 //! let mut tiles = Tiles::new();
-//! tiles.rebuild([tile].into_iter());
-//! let around = tiles.around(tiles.find(tile).ok_or("no tile")?);
+//! tiles.rebuild(size, [home].into_iter());
+//! let tile = tiles.find(home).ok_or("no tile")?;
+//! let (window, around) = (tiles.window(tile), tiles.around(tile));
 //!
 //! let mut mass = vec![0.0; tiles.node_count()];
-//! let stencil = shape::Gimp.stencil(&grid, tile, &x, &domain).ok_or("outside")?;
-//! stencil.visit(|window, weight, _gradient| {
-//!     let (neighbour, local) = window_map::<2>()[window];
-//!     mass[around[neighbour as usize] as usize * 16 + local as usize] += 3.0 * weight;
+//! let stencil = shape::Gimp.stencil(&grid, &window, &x, &domain).ok_or("outside")?;
+//! stencil.visit(|entry, weight, _gradient| {
+//!     let (neighbour, local) = tiles.map()[entry];
+//!     mass[around[neighbour as usize] as usize * tiles.nodes_each() + local as usize] += 3.0 * weight;
 //! });
 //!
 //! let centre = (0..tiles.node_count()).map(|n| tiles.node_position(&grid, n) * mass[n]).sum::<Vector2<f64>>() / 3.0;
@@ -69,7 +71,5 @@ pub use separable::Separable;
 pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};
 pub use stencils::{OneByOne, SeparableStencils, Stencils};
-pub use tiles::{ABSENT, Tiles};
-pub use window::{
-    TILE, WINDOW, WINDOW_START, sums_entry, tile_of, window_entries, window_map, window_node,
-};
+pub use tiles::{ABSENT, TileSize, Tiles};
+pub use window::{WINDOW_START, Window, sums_entry, tile_of};

@@ -8,7 +8,7 @@ use nalgebra::SVector;
 
 use crate::quads::MeshError;
 
-/// Most nodes of a patch: the entries of a tile's window in the plane.
+/// Most nodes of a patch: the entries of the window of a narrow tile in the plane.
 const MOST_NODES: usize = 64;
 /// Most colours.
 const MOST_COLOURS: usize = 256;

@@ -3,12 +3,7 @@
 use nalgebra::SVector;
 
 use crate::axes::{Axes, Numbers};
-use crate::{Grid, Stencil, TILE, WINDOW, WINDOW_START};
-
-/// Window stride of axis 1.
-const ROW: usize = WINDOW as usize;
-/// Window stride of axis 2.
-const LAYER: usize = (WINDOW * WINDOW) as usize;
+use crate::{Grid, Stencil, Window};
 
 /// Weights along each axis: the first node relative to the particle's cell, values, and slopes per cell width.
 pub(crate) type Line<const K: usize, const N: usize> =
@@ -36,11 +31,11 @@ pub struct Separable<const D: usize, const K: usize> {
 
 impl<const D: usize, const K: usize> Separable<D, K> {
     /// Builds from the weights along the axes, given the particle's coordinates [0, 1] in its cell. None if the particle
-    /// is outside the grid or one of the nodes outside the tile's window.
+    /// is outside the grid or one of the nodes outside the window.
     #[inline(always)]
     pub(crate) fn new(
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         profile: &impl Profile<K>,
     ) -> Option<Self> {
@@ -49,14 +44,11 @@ impl<const D: usize, const K: usize> Separable<D, K> {
         }
         let (cell, local) = grid.cell_and_local(x);
         let (first, values, slopes) = profile.line(local);
-        let window = Axes::from_axes::<D>(|axis| {
-            f64::from(TILE) * f64::from(tile[axis]) + f64::from(WINDOW_START)
-        });
-        let start = cell + first - window;
+        let start = cell + first - Axes::from_axes::<D>(|axis| f64::from(window.first[axis]));
         let (mut base, mut fits) = (0.0, true);
         for (axis, start) in start.0.iter().enumerate().take(D) {
-            fits &= *start >= 0.0 && *start <= f64::from(WINDOW) - K as f64;
-            base += start * (1 << (3 * axis)) as f64;
+            fits &= *start >= 0.0 && *start <= f64::from(window.nodes) - K as f64;
+            base += start * Window::<D>::ROW.pow(axis as u32) as f64;
         }
         let arm = (first - local) * grid.spacing();
         let mut stencil = Self {
@@ -80,10 +72,11 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
     fn visit(&self, mut f: impl FnMut(usize, f64, SVector<f64, D>)) {
         let (value, slope) = (&self.values, &self.slopes);
         let mut gradient = SVector::zeros();
+        let row = Window::<D>::ROW;
         if D == 3 {
             for k in 0..K {
                 for j in 0..K {
-                    let start = self.base + LAYER * k + ROW * j;
+                    let start = self.base + row * (row * k + j);
                     let both = value[j].0[1] * value[k].0[2];
                     let along_1 = slope[j].0[1] * value[k].0[2];
                     let along_2 = value[j].0[1] * slope[k].0[2];
@@ -97,7 +90,7 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             }
         } else if D == 2 {
             for j in 0..K {
-                let start = self.base + ROW * j;
+                let start = self.base + row * j;
                 for i in 0..K {
                     gradient[0] = slope[i].0[0] * value[j].0[1];
                     gradient[1] = value[i].0[0] * slope[j].0[1];
@@ -115,10 +108,11 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
     #[inline]
     fn visit_values(&self, mut f: impl FnMut(usize, f64)) {
         let value = &self.values;
+        let row = Window::<D>::ROW;
         if D == 3 {
             for k in 0..K {
                 for j in 0..K {
-                    let start = self.base + LAYER * k + ROW * j;
+                    let start = self.base + row * (row * k + j);
                     let both = value[j].0[1] * value[k].0[2];
                     for (i, along) in value.iter().enumerate() {
                         f(start + i, along.0[0] * both);
@@ -127,7 +121,7 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
             }
         } else if D == 2 {
             for j in 0..K {
-                let start = self.base + ROW * j;
+                let start = self.base + row * j;
                 for (i, along) in value.iter().enumerate() {
                     f(start + i, along.0[0] * value[j].0[1]);
                 }
@@ -141,8 +135,9 @@ impl<const D: usize, const K: usize> Stencil<D> for Separable<D, K> {
 
     #[inline]
     fn arm(&self, window: usize) -> SVector<f64, D> {
+        let (there, base) = (Window::<D>::place(window), Window::<D>::place(self.base));
         SVector::from_fn(|axis, _| {
-            let k = (window >> (3 * axis) & 7) as f64 - (self.base >> (3 * axis) & 7) as f64;
+            let k = there[axis] as f64 - base[axis] as f64;
             self.arm.0[axis] + k * self.spacing
         })
     }

@@ -17,7 +17,7 @@ use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
 use crate::simd::{EIGHT, Lanes};
-use crate::{Grid, Patches, Stencil, Stencils, tile_of};
+use crate::{Grid, Patches, Stencil, Stencils, Window, tile_of};
 
 mod bspline;
 mod cpdi;
@@ -55,11 +55,11 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
         true
     }
 
-    /// The tile that a particle at `x` (m) is sorted by, or the number of its patch as the first coordinate. None if it is
-    /// outside.
+    /// The tile of so many cells along each axis that a particle at `x` (m) is sorted by, or the number of its patch as
+    /// the first coordinate. None if it is outside.
     #[inline]
-    fn home(&self, grid: &Grid<D>, x: &SVector<f64, D>) -> Option<[i32; D]> {
-        grid.cell(x).map(tile_of)
+    fn home(&self, grid: &Grid<D>, x: &SVector<f64, D>, cells: i32) -> Option<[i32; D]> {
+        grid.cell(x).map(|cell| tile_of(cell, cells))
     }
 
     /// The domain (half-edge vectors as columns, m) the particle has now, from the one it was seeded with and the upper
@@ -69,8 +69,8 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
         *initial
     }
 
-    /// Weights of a particle at `x` (m) with the half-edges `domain` (columns, m), in the window of `tile` (cells
-    /// 4t .. 4t + 4).
+    /// Weights of a particle at `x` (m) with the half-edges `domain` (columns, m), in the window of its
+    /// tile.
     ///
     /// None if the particle is outside the grid, if a node is outside the window, or if the shape cannot use the domain.
     /// A particle that left the tile is served as long as its nodes fit the window, so sorting may lag a step or two.
@@ -78,18 +78,18 @@ pub trait Shape<const D: usize>: Clone + Send + Sync + std::fmt::Debug + 'static
     fn stencil(
         &self,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil>;
 
-    /// Weights of eight particles of a tile at `x` (m, for each axis those of the eight), with the domain of each place; as [`stencil`](Self::stencil). A shape whose
+    /// Weights of eight particles of a window at `x` (m, for each axis those of the eight), with the domain of each place; as [`stencil`](Self::stencil). A shape whose
     /// domain is always the initial one may ask for that of place 0 alone.
     fn stencils<L: Lanes>(
         &self,
         lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils;

@@ -29,7 +29,7 @@ pub trait Stencils<const D: usize> {
     /// [`SMOOTH`](Self::SMOOTH) have one.
     ///
     /// `field` holds [`FIELD`](crate::FIELD) numbers for each of
-    /// [`window_entries`](crate::window_entries) entries.
+    /// [`ELEMENTS`](crate::Window::ELEMENTS) of a window.
     fn gather<L: Lanes, const G: bool, const M: bool>(
         &self,
         lanes: L,
@@ -37,8 +37,8 @@ pub trait Stencils<const D: usize> {
     ) -> Gathered<L::Eight, D>;
 
     /// Adds what the first `count` particles, at least one, give, those that fit, to the sums of every node: `N value`, and with `E` what
-    /// goes by gradient and weighted arm, as [`Gift`] says. `sums` holds an element for each of
-    /// [`window_entries`](crate::window_entries) entries, at its [`sums_entry`](crate::sums_entry).
+    /// goes by gradient and weighted arm, as [`Gift`] says. `sums` holds one for each of the
+    /// [`ELEMENTS`](crate::Window::ELEMENTS) of a window, at its [`sums_entry`](crate::sums_entry).
     fn scatter<L: Lanes, const E: bool>(
         &self,
         lanes: L,

@@ -5,19 +5,48 @@ mod morton;
 
 use nalgebra::SVector;
 
-use crate::{Grid, TILE};
+use crate::{Grid, WINDOW_START, Window};
 use lookup::Lookup;
 use morton::morton;
 
 /// Marks a tile that is not held in [`Tiles::around`].
 pub const ABSENT: u32 = u32::MAX;
 
+/// How many cells a tile has along each axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TileSize {
+    /// Four: 64 cells in space. In the plane where what is done for a window is dear, as at the tips of cracks.
+    #[default]
+    Narrow,
+    /// Eight in the plane, where 64 cells then share a window of 144 nodes, and four tiles of four would take 256. In
+    /// space four as well.
+    Wide,
+}
+
+impl TileSize {
+    /// Cells along an axis.
+    #[inline]
+    pub const fn cells<const D: usize>(self) -> i32 {
+        1 << self.bits::<D>()
+    }
+
+    const fn bits<const D: usize>(self) -> u32 {
+        match self {
+            Self::Wide if D < 3 => 3,
+            _ => 2,
+        }
+    }
+}
+
 /// The tiles that hold nodes now: the occupied ones and those their particles reach.
 ///
 /// Tiles are numbered along a Morton curve, so neighbours in space are mostly neighbours in memory and the numbers
-/// depend on the set of occupied tiles alone. Node numbers are `tile · 4^D + local`, local axis 0 fastest.
+/// depend on the set of occupied tiles alone. Node numbers are `tile · cells^D + local`, local axis 0 fastest.
 #[derive(Clone, Debug, Default)]
 pub struct Tiles<const D: usize> {
+    size: TileSize,
+    /// Of every entry of a window where it is kept; see [`map`](Self::map).
+    map: Vec<(u8, u8)>,
     /// Coordinates of all tiles, ascending along the curve.
     all: Vec<[i32; D]>,
     /// Coordinates of the occupied ones, ascending; kept for its allocation.
@@ -29,8 +58,6 @@ pub struct Tiles<const D: usize> {
 }
 
 impl<const D: usize> Tiles<D> {
-    /// Nodes owned by a tile: 4^D.
-    pub const NODES: usize = (TILE as usize).pow(D as u32);
     /// Tiles around a tile, itself included: 3^D.
     pub const AROUND: usize = 3_usize.pow(D as u32);
 
@@ -39,9 +66,14 @@ impl<const D: usize> Tiles<D> {
         Self::default()
     }
 
-    /// Rebuilds from the coordinates of the tiles that hold particles, in any order and with repetitions. Every tile
-    /// within one of an occupied tile along each axis is made, since the window covers those. Memory is reused.
-    pub fn rebuild(&mut self, occupied: impl Iterator<Item = [i32; D]>) {
+    /// Rebuilds from the coordinates of the tiles of this size that hold particles, in any order and with repetitions.
+    /// Every tile within one of an occupied tile along each axis is made, since the window covers those. Memory is
+    /// reused.
+    pub fn rebuild(&mut self, size: TileSize, occupied: impl Iterator<Item = [i32; D]>) {
+        if self.map.is_empty() || size != self.size {
+            self.size = size;
+            self.map = window_map::<D>(self.cells());
+        }
         self.holders.clear();
         for coordinates in occupied {
             // Sorted particles name their tile many times in a row.
@@ -64,6 +96,7 @@ impl<const D: usize> Tiles<D> {
             occupied,
             around,
             lookup,
+            ..
         } = self;
         occupied.clear();
         occupied.extend(holders.iter().filter_map(|&tile| lookup.find(all, tile)));
@@ -102,13 +135,39 @@ impl<const D: usize> Tiles<D> {
         self.all.is_empty()
     }
 
-    /// Number of nodes: tiles × 4^D.
+    /// Cells, and owned nodes, of a tile along each axis.
     #[inline]
-    pub fn node_count(&self) -> usize {
-        self.all.len() * Self::NODES
+    pub fn cells(&self) -> i32 {
+        self.size.cells::<D>()
     }
 
-    /// Coordinates of a tile: it holds cells and nodes 4t .. 4t + 4. `tile` must be below [`Tiles::len`], as for a slice.
+    /// Nodes owned by a tile: cells^D.
+    #[inline]
+    pub fn nodes_each(&self) -> usize {
+        1 << (self.size.bits::<D>() as usize * D)
+    }
+
+    /// Number of nodes: tiles × cells^D.
+    #[inline]
+    pub fn node_count(&self) -> usize {
+        self.all.len() * self.nodes_each()
+    }
+
+    /// For each number of a window's entry where it is kept: which of the 3^D tiles around (offsets −1..=1, axis 0
+    /// fastest, as in [`around`](Self::around)), and the node inside it (axis 0 fastest). Numbers that are no entry
+    /// (see [`Window`]) have a tile beyond 3^D. Empty before the first [`rebuild`](Self::rebuild).
+    #[inline]
+    pub fn map(&self) -> &[(u8, u8)] {
+        &self.map
+    }
+
+    /// Window of a tile; `tile` as for [`coordinates`](Self::coordinates).
+    #[inline]
+    pub fn window(&self, tile: usize) -> Window<D> {
+        Window::of_tile(self.all[tile], self.cells())
+    }
+
+    /// Coordinates of a tile: it holds cells and nodes `cells · t .. cells · (t + 1)`. `tile` must be below [`Tiles::len`], as for a slice.
     #[inline]
     pub fn coordinates(&self, tile: usize) -> [i32; D] {
         self.all[tile]
@@ -141,12 +200,11 @@ impl<const D: usize> Tiles<D> {
     /// Grid index of a node; `node` must be below [`Tiles::node_count`], as for a slice.
     #[inline]
     pub fn node_index(&self, node: usize) -> [i32; D] {
-        let tile = self.all[node / Self::NODES];
-        let local = node % Self::NODES;
+        let (tile, local) = (self.all[node / self.nodes_each()], node % self.nodes_each());
+        let (cells, bits) = (self.cells(), self.size.bits::<D>() as usize);
         std::array::from_fn(|axis| {
-            tile[axis]
-                .saturating_mul(TILE)
-                .saturating_add((local >> (2 * axis)) as i32 % TILE)
+            let along = (local >> (bits * axis)) as i32 & (cells - 1);
+            tile[axis].saturating_mul(cells).saturating_add(along)
         })
     }
 
@@ -155,6 +213,22 @@ impl<const D: usize> Tiles<D> {
     pub fn node_position(&self, grid: &Grid<D>, node: usize) -> SVector<f64, D> {
         grid.node(self.node_index(node))
     }
+}
+
+/// See [`Tiles::map`].
+fn window_map<const D: usize>(cells: i32) -> Vec<(u8, u8)> {
+    let mut map = vec![(u8::MAX, 0); Window::<D>::ENTRIES];
+    for entry in Window::<D>::of_tile([0; D], cells).entries() {
+        let place = Window::<D>::place(entry);
+        let (mut neighbour, mut local) = (0, 0);
+        for axis in (0..D).rev() {
+            let node = place[axis] as i32 + WINDOW_START;
+            neighbour = 3 * neighbour + node.div_euclid(cells) + 1;
+            local = cells * local + node.rem_euclid(cells);
+        }
+        map[entry] = (neighbour as u8, local as u8);
+    }
+    map
 }
 
 /// Ascending along the curve, each once.

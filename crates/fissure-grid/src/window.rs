@@ -1,88 +1,108 @@
-//! Tiles and windows: the constants, and where each entry of a window is kept.
+//! The window of a tile: the nodes its particles may reach, and how its entries are numbered.
 
-/// Cells, and owned nodes, of a tile along an axis.
-pub const TILE: i32 = 4;
-/// Nodes the particles of a tile may reach along an axis: window indices 0..8 stand for nodes 4t − 2 ..= 4t + 5.
-pub const WINDOW: i32 = 8;
 /// First node of a tile's window along an axis, relative to the tile's own first node.
 pub const WINDOW_START: i32 = -2;
 
-/// The tile that holds a cell or owns a node: `floor(index / 4)` along each axis.
+/// The tile, of so many cells along each axis, that holds a cell or owns a node: `floor(index / cells)`.
 #[inline]
-pub fn tile_of<const D: usize>(index: [i32; D]) -> [i32; D] {
-    index.map(|i| i.div_euclid(TILE))
+pub fn tile_of<const D: usize>(index: [i32; D], cells: i32) -> [i32; D] {
+    index.map(|i| i.div_euclid(cells))
 }
 
-/// For each of the 8^D entries of a window (axis 0 fastest) where it is kept: which of the 3^D tiles around (offsets
-/// −1..=1, axis 0 fastest, as in [`Tiles::around`](crate::Tiles::around)), and the node inside it (0..4^D, axis 0
-/// fastest).
+/// The nodes that particles of a tile may reach: so many along each axis, from `first` on.
 ///
-/// Read backwards it serves an owner that gathers: a tile's nodes lie in the window of its neighbour `n` at the entries
-/// marked `3^D − 1 − n`, the direction from that neighbour to the tile.
-#[inline]
-pub fn window_map<const D: usize>() -> &'static [(u8, u8)] {
-    static LINE: [(u8, u8); 8] = table(1);
-    static SQUARE: [(u8, u8); 64] = table(2);
-    static CUBE: [(u8, u8); 512] = table(3);
-    match D {
-        1 => &LINE,
-        2 => &SQUARE,
-        3 => &CUBE,
-        _ => &[],
-    }
+/// An entry of a window is numbered `Σ_a k_a ROW^a`, with `k_a` in 0..`nodes`: a window that is less wide than the
+/// widest leaves numbers out, so that the nodes of a stencil are always the same numbers apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window<const D: usize> {
+    /// Grid index of the first node; on a mesh the first coordinate is the number of the patch.
+    pub first: [i32; D],
+    /// Nodes along an axis, at most [`ROW`](Self::ROW).
+    pub nodes: i32,
 }
 
-const fn table<const N: usize>(dimensions: usize) -> [(u8, u8); N] {
-    let mut map = [(0, 0); N];
-    let mut entry = 0;
-    while entry < N {
-        let (mut neighbour, mut local) = (0, 0);
-        let mut axis = dimensions;
-        while axis > 0 {
-            axis -= 1;
-            let node = (entry >> (3 * axis)) as i32 % WINDOW + WINDOW_START;
-            neighbour = 3 * neighbour + node.div_euclid(TILE) + 1;
-            local = TILE * local + node.rem_euclid(TILE);
+impl<const D: usize> Window<D> {
+    /// Most nodes along an axis: those of a tile of eight cells, in space of four.
+    pub const ROW: usize = if D < 3 { 12 } else { 8 };
+    /// Numbers of entries: ROW^D.
+    pub const ENTRIES: usize = Self::ROW.pow(D as u32);
+    /// Elements of an array over a window: its entries, and as many as a stencil of four nodes along each axis reaches
+    /// past the last of them. Those hold nothing. They are there so that transfers need not ask where a stencil ends.
+    pub const ELEMENTS: usize = Self::ENTRIES + Self::reach();
+
+    const fn reach() -> usize {
+        let (mut reach, mut axis) = (1, 0);
+        while axis < D {
+            reach += 3 * Self::ROW.pow(axis as u32);
+            axis += 1;
         }
-        map[entry] = (neighbour as u8, local as u8);
-        entry += 1;
+        reach
     }
-    map
-}
 
-/// Where the sums of a window entry stand in an array of [`sums_entry`]`(8^D)`: a layer of space takes one place more than
-/// it has nodes. Else the nodes of a stencil in several layers would lie 4096 bytes apart, and a processor takes the
-/// reading of one for the writing of another.
-#[inline(always)]
-pub const fn sums_entry(entry: usize) -> usize {
-    entry + entry / (WINDOW * WINDOW) as usize
-}
-
-/// Entries of an array over a window: its own, and as many as a stencil of four nodes along each axis reaches past the
-/// last of them. Those hold nothing. They are there so that transfers need not ask where a stencil ends.
-pub const fn window_entries(dimensions: usize) -> usize {
-    let (mut own, mut reach, mut axis) = (1, 1, 0);
-    while axis < dimensions {
-        reach += 3 * own;
-        own *= WINDOW as usize;
-        axis += 1;
+    /// Of a tile of so many cells along each axis: two nodes more than its own on either side.
+    #[inline]
+    pub fn of_tile(tile: [i32; D], cells: i32) -> Self {
+        let first = |t: i32| t.saturating_mul(cells).saturating_add(WINDOW_START);
+        Self {
+            first: tile.map(first),
+            nodes: nodes_of(cells),
+        }
     }
-    own + reach
+
+    /// What stands for the window of a patch of a mesh, whose entries are numbered one after another.
+    #[inline]
+    pub fn of_patch(patch: u32) -> Self {
+        let mut first = [0; D];
+        first[0] = patch as i32;
+        Self { first, nodes: 0 }
+    }
+
+    /// Place of an entry along each axis.
+    #[inline]
+    pub fn place(entry: usize) -> [usize; D] {
+        std::array::from_fn(|axis| entry / Self::ROW.pow(axis as u32) % Self::ROW)
+    }
+
+    /// Grid index of an entry's node.
+    #[inline]
+    pub fn node(&self, entry: usize) -> [i32; D] {
+        let place = Self::place(entry);
+        std::array::from_fn(|axis| self.first[axis].saturating_add(place[axis] as i32))
+    }
+
+    /// The entries, ascending.
+    pub fn entries(&self) -> impl Iterator<Item = usize> + use<D> {
+        let nodes = self.nodes as usize;
+        (0..Self::ENTRIES).filter(move |&entry| Self::place(entry).iter().all(|&k| k < nodes))
+    }
+
+    /// The last of the entries.
+    pub fn last(&self) -> usize {
+        let place = self.nodes.max(1) as usize - 1;
+        (0..D as u32).map(|axis| place * Self::ROW.pow(axis)).sum()
+    }
+
+    /// Place, along one axis, of the first of `count` nodes starting at `node`; None if they do not all fit.
+    #[inline(always)]
+    pub(crate) fn start(&self, axis: usize, node: i32, count: i32) -> Option<usize> {
+        let start = node.saturating_sub(self.first[axis]);
+        (start >= 0 && start <= self.nodes - count).then_some(start as usize)
+    }
 }
 
-/// Grid index of a window entry's node; `entry` is below 8^D.
-#[inline]
-pub fn window_node<const D: usize>(tile: [i32; D], entry: usize) -> [i32; D] {
-    std::array::from_fn(|axis| {
-        tile[axis] * TILE + WINDOW_START + ((entry >> (3 * axis)) & 7) as i32
-    })
+/// Nodes along an axis of the window of a tile of so many cells.
+pub(crate) const fn nodes_of(cells: i32) -> i32 {
+    cells - 2 * WINDOW_START
 }
 
-/// Window index, along one axis, of the first of `count` nodes starting at `node`; None if they do not all fit.
+/// Where the sums of a window entry stand in an array of `sums_entry::<D>(Window::<D>::ELEMENTS)`: a layer of space takes
+/// one place more than it has nodes. Else the nodes of a stencil in several layers would lie 4096 bytes apart, and a
+/// processor takes the reading of one for the writing of another.
 #[inline(always)]
-pub(crate) fn window_start(tile: i32, node: i32, count: i32) -> Option<usize> {
-    let start = node
-        .saturating_sub(tile.saturating_mul(TILE))
-        .saturating_sub(WINDOW_START);
-    (start >= 0 && start <= WINDOW - count).then_some(start as usize)
+pub const fn sums_entry<const D: usize>(entry: usize) -> usize {
+    if D < 3 {
+        entry
+    } else {
+        entry + entry / (Window::<D>::ROW * Window::<D>::ROW)
+    }
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use fissure_grid::{Grid, Shape};
+use fissure_grid::{Grid, Shape, Window};
 use nalgebra::{SMatrix, SVector};
 use support::{deformation, nodes, spread};
 
@@ -131,41 +131,33 @@ fn reach_is_as_declared() {
 fn fits_the_window<const D: usize, S: Shape<D>>(shape: S) {
     let grid = unit_grid::<D>();
     let domain = shape.domain(&seeded(), &SMatrix::identity());
+    let stencil = |tile: [i32; D], x: &SVector<f64, D>| {
+        shape.stencil(&grid, &Window::of_tile(tile, 4), x, &domain)
+    };
     // Centres of cells and points of theirs far to one side: all particles of a tile are served.
     for cell in 8..12 {
         for t in [0.0, 1e-12, 0.49, 0.5, 0.51, 0.99] {
             let x = SVector::from_element((f64::from(cell) + t) * H);
-            assert!(
-                shape.stencil(&grid, [2; D], &x, &domain).is_some(),
-                "{} {cell} {t}",
-                shape.name()
-            );
+            assert!(stencil([2; D], &x).is_some(), "{} {cell} {t}", shape.name());
         }
     }
     // Two cells below and one above still are for linear functions; three and two are not for any.
     for (cell, served) in [(6, true), (5, false), (12, true), (13, false)] {
         let x = SVector::from_element((f64::from(cell) + 0.5) * H);
-        let stencil = shape.stencil(&grid, [2; D], &x, &domain);
-        assert!(stencil.is_none() || served);
-        assert!(stencil.is_some() || !(served && shape.name() == "linear"));
+        let found = stencil([2; D], &x);
+        assert!(found.is_none() || served);
+        assert!(found.is_some() || !(served && shape.name() == "linear"));
     }
     for bad in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
         let mut x = SVector::from_element(0.5);
         x[D - 1] = bad;
         for tile in [[2; D], [0; D], [i32::MIN; D], [i32::MAX; D]] {
-            assert!(shape.stencil(&grid, tile, &x, &domain).is_none());
+            assert!(stencil(tile, &x).is_none());
         }
     }
-    assert!(
-        shape
-            .stencil(&grid, [i32::MIN; D], &SVector::from_element(0.5), &domain)
-            .is_none()
-    );
-    assert!(
-        shape
-            .stencil(&grid, [i32::MAX; D], &SVector::from_element(0.5), &domain)
-            .is_none()
-    );
+    for far in [i32::MIN, i32::MAX] {
+        assert!(stencil([far; D], &SVector::from_element(0.5)).is_none());
+    }
 }
 
 #[test]

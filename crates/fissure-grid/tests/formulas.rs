@@ -2,7 +2,7 @@
 
 mod support;
 
-use fissure_grid::{Grid, Shape, shape};
+use fissure_grid::{Grid, Shape, Window, shape};
 use fissure_tensor::Band;
 use nalgebra::{Matrix1, Matrix2, Matrix3, Rotation2, Rotation3, Vector1, Vector2, Vector3};
 use support::{deformation, nodes, spread};
@@ -98,8 +98,14 @@ fn gimp_gradient_is_continuous() {
 
 #[test]
 fn gimp_takes_boxes_up_to_a_cell() {
-    let stencil =
-        |half: f64| shape::Gimp.stencil(&line(), [1], &Vector1::new(2.6), &Matrix1::new(half));
+    let stencil = |half: f64| {
+        shape::Gimp.stencil(
+            &line(),
+            &Window::of_tile([1], 4),
+            &Vector1::new(2.6),
+            &Matrix1::new(half),
+        )
+    };
     for half in [0.0, 1e-300, 1e-12, 0.25, 0.25 * (1.0 + 1e-12)] {
         let nodes = nodes(
             &shape::Gimp,
@@ -217,7 +223,9 @@ fn cpdi_needs_a_volume() {
         Matrix2::from_diagonal(&Vector2::new(f64::INFINITY, 0.1)),
     ] {
         assert!(
-            shape::Cpdi.stencil(&grid, [1, 1], &x, &domain).is_none(),
+            shape::Cpdi
+                .stencil(&grid, &Window::of_tile([1, 1], 4), &x, &domain)
+                .is_none(),
             "{domain}"
         );
     }

@@ -108,8 +108,9 @@ fn outside_has_no_owner() {
 
 #[test]
 fn tiles_of_negative_nodes_lie_below() {
-    assert_eq!(tile_of([-1, 0, 3]), [-1, 0, 0]);
-    assert_eq!(tile_of([-4, -5, 4]), [-1, -2, 1]);
+    assert_eq!(tile_of([-1, 0, 3], 4), [-1, 0, 0]);
+    assert_eq!(tile_of([-4, -5, 4], 4), [-1, -2, 1]);
+    assert_eq!(tile_of([-8, -9, 15], 8), [-1, -2, 1]);
 }
 
 proptest! {

@@ -7,7 +7,7 @@
     clippy::unwrap_used
 )]
 
-use fissure_grid::{Grid, MeshError, QuadMesh, Shape, Stencil, shape};
+use fissure_grid::{Grid, MeshError, QuadMesh, Shape, Stencil, Window, shape};
 use fissure_tensor::{Band, Vector3};
 use nalgebra::{Matrix2, Vector2};
 use proptest::prelude::*;
@@ -172,10 +172,10 @@ proptest! {
         prop_assert_eq!(&mesh.grid(), &grid);
         let at = Vector2::new(x, y);
         let mut linear = Vec::new();
-        let stencil = shape::Linear.stencil(&grid, [0, 0], &at, &Matrix2::zeros()).unwrap();
+        let window = Window::of_tile([0, 0], 4);
+        let stencil = shape::Linear.stencil(&grid, &window, &at, &Matrix2::zeros()).unwrap();
         stencil.visit(|entry, n, g| {
-            let node = fissure_grid::window_node::<2>([0, 0], entry);
-            linear.push((grid.node(node), n, g));
+            linear.push((grid.node(window.node(entry)), n, g));
         });
         let element = mesh.element(&at).unwrap();
         for ((n, g), &node) in mesh.functions(element, &at).iter().zip(&mesh.elements()[element]) {
@@ -207,11 +207,12 @@ fn patches_hold_what_they_should() {
     let mut served = 0;
     for (element, corners) in mesh.elements().iter().enumerate() {
         let x = mesh.point(element, &Vector2::new(0.3, -0.4));
-        let home = shape.home(&grid, &x).unwrap();
-        assert!(shape.stencil(&grid, home, &x, &Matrix2::zeros()).is_some());
+        let home = shape.home(&grid, &x, 4).unwrap();
+        let own = Window::of_patch(home[0] as u32);
+        assert!(shape.stencil(&grid, &own, &x, &Matrix2::zeros()).is_some());
         for patch in 0..patches.len() {
-            let tile = [patch as i32, 0];
-            let Some(stencil) = shape.stencil(&grid, tile, &x, &Matrix2::zeros()) else {
+            let window = Window::of_patch(patch as u32);
+            let Some(stencil) = shape.stencil(&grid, &window, &x, &Matrix2::zeros()) else {
                 continue;
             };
             served += 1;

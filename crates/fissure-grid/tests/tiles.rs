@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use fissure_grid::{ABSENT, Grid, TILE, Tiles, WINDOW, WINDOW_START, tile_of, window_map};
+use fissure_grid::{ABSENT, Grid, TileSize, Tiles, WINDOW_START, Window, tile_of};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
@@ -16,9 +16,21 @@ fn plus<const D: usize>(a: [i32; D], b: [i32; D]) -> [i32; D] {
 }
 
 fn check<const D: usize>(occupied: &[[i32; D]]) {
+    check_of(TileSize::Narrow, occupied);
+    check_of(TileSize::Wide, occupied);
+}
+
+fn check_of<const D: usize>(size: TileSize, occupied: &[[i32; D]]) {
     let mut tiles = Tiles::new();
-    tiles.rebuild([[7; D]].into_iter()); // leaves something to be forgotten
-    tiles.rebuild(occupied.iter().copied());
+    tiles.rebuild(TileSize::Wide, [[7; D]].into_iter()); // leaves something to be forgotten
+    tiles.rebuild(size, occupied.iter().copied());
+    let cells = if size == TileSize::Wide && D < 3 {
+        8
+    } else {
+        4
+    };
+    assert_eq!((tiles.cells(), size.cells::<D>()), (cells, cells));
+    assert_eq!(tiles.nodes_each(), (cells as usize).pow(D as u32));
 
     let expected: BTreeSet<[i32; D]> = occupied
         .iter()
@@ -58,12 +70,13 @@ fn check<const D: usize>(occupied: &[[i32; D]]) {
         .collect();
     assert_eq!(nodes.len(), tiles.node_count());
     assert!(
-        (0..tiles.node_count())
-            .all(|n| tiles.find(tile_of(tiles.node_index(n))) == Some(n / Tiles::<D>::NODES))
+        (0..tiles.node_count()).all(
+            |n| tiles.find(tile_of(tiles.node_index(n), cells)) == Some(n / tiles.nodes_each())
+        )
     );
 
     let mut other = Tiles::new();
-    other.rebuild(occupied.iter().rev().chain(occupied).copied());
+    other.rebuild(size, occupied.iter().rev().chain(occupied).copied());
     assert!((0..tiles.len()).all(|t| other.coordinates(t) == tiles.coordinates(t)));
     assert_eq!(other.occupied(), tiles.occupied());
 }
@@ -89,9 +102,9 @@ fn lines_are_consistent() {
 fn empty_rebuild_leaves_nothing() {
     let mut tiles = Tiles::<3>::new();
     assert!(tiles.is_empty() && tiles.find([0; 3]).is_none() && tiles.around(0).is_empty());
-    tiles.rebuild([[1, 2, 3]].into_iter());
+    tiles.rebuild(TileSize::Narrow, [[1, 2, 3]].into_iter());
     assert_eq!((tiles.len(), tiles.node_count()), (27, 27 * 64));
-    tiles.rebuild(std::iter::empty());
+    tiles.rebuild(TileSize::Narrow, std::iter::empty());
     assert!(tiles.is_empty() && tiles.occupied().is_empty() && tiles.node_count() == 0);
     assert_eq!(tiles.find([1, 2, 3]), None);
     assert!(tiles.around(0).is_empty());
@@ -100,7 +113,7 @@ fn empty_rebuild_leaves_nothing() {
 #[test]
 fn the_ends_of_the_index_range_are_met_without_panic() {
     let mut tiles = Tiles::<2>::new();
-    tiles.rebuild([[i32::MAX, i32::MIN]].into_iter());
+    tiles.rebuild(TileSize::Wide, [[i32::MAX, i32::MIN]].into_iter());
     assert_eq!(tiles.len(), 4);
     assert_eq!(
         tiles
@@ -116,7 +129,7 @@ fn the_ends_of_the_index_range_are_met_without_panic() {
 #[test]
 fn numbers_follow_the_curve() {
     let mut tiles = Tiles::<2>::new();
-    tiles.rebuild([[1, 1], [2, 2]].into_iter());
+    tiles.rebuild(TileSize::Narrow, [[1, 1], [2, 2]].into_iter());
     let first: Vec<_> = (0..7).map(|t| tiles.coordinates(t)).collect();
     assert_eq!(
         first,
@@ -124,45 +137,45 @@ fn numbers_follow_the_curve() {
     );
 }
 
-fn window_lands<const D: usize>() {
-    let map = window_map::<D>();
-    assert_eq!(map.len(), (WINDOW as usize).pow(D as u32));
-    let digit = |n: usize, base: usize, axis: usize| (n / base.pow(axis as u32) % base) as i32;
-    for (entry, &(neighbour, local)) in map.iter().enumerate() {
-        for axis in 0..D {
-            let there = TILE * offset::<D>(neighbour as usize)[axis]
-                + digit(local as usize, TILE as usize, axis);
-            assert_eq!(there, WINDOW_START + digit(entry, WINDOW as usize, axis));
-        }
+/// Every entry of a window is kept where its node is; numbers that are no entry are kept nowhere.
+fn window_lands<const D: usize>(size: TileSize) {
+    let mut tiles = Tiles::new();
+    tiles.rebuild(size, [[1; D]].into_iter());
+    let tile = tiles.find([1; D]).expect("held");
+    let (window, around) = (tiles.window(tile), tiles.around(tile));
+    let side = tiles.cells() - 2 * WINDOW_START;
+    assert_eq!(window.nodes, side);
+    assert_eq!(window.first, [tiles.cells() + WINDOW_START; D]);
+    let mut nodes = BTreeSet::new();
+    for (entry, &(neighbour, local)) in tiles.map().iter().enumerate() {
+        let Some(&there) = around.get(neighbour as usize) else {
+            assert!(window.entries().all(|other| other != entry));
+            continue;
+        };
+        let node = there as usize * tiles.nodes_each() + local as usize;
+        assert_eq!(tiles.node_index(node), window.node(entry));
+        nodes.insert(window.node(entry));
     }
+    assert_eq!(nodes.len(), (side as usize).pow(D as u32));
+    assert_eq!(window.entries().count(), nodes.len());
+    assert_eq!(window.entries().last(), Some(window.last()));
+    assert!(window.last() < Window::<D>::ENTRIES && Window::<D>::ENTRIES < Window::<D>::ELEMENTS);
 }
 
 #[test]
 fn window_entries_land_on_their_nodes() {
-    window_lands::<1>();
-    window_lands::<2>();
-    window_lands::<3>();
-}
-
-/// What owners gather from the windows round them is what the windows hold, each entry once.
-#[test]
-fn reversed_map_gathers_every_entry() {
-    let map = window_map::<3>();
-    let taken: usize = (0..27)
-        .map(|n| {
-            map.iter()
-                .filter(|entry| entry.0 as usize == 26 - n)
-                .count()
-        })
-        .sum();
-    assert_eq!(taken, map.len());
+    for size in [TileSize::Narrow, TileSize::Wide] {
+        window_lands::<1>(size);
+        window_lands::<2>(size);
+        window_lands::<3>(size);
+    }
 }
 
 #[test]
 fn nodes_have_positions() {
     let grid = Grid::over([1.0, -1.0], [3.0, 1.0], 0.5).unwrap();
     let mut tiles = Tiles::new();
-    tiles.rebuild([[0, 0]].into_iter());
+    tiles.rebuild(TileSize::Narrow, [[0, 0]].into_iter());
     let centre = tiles.find([0, 0]).unwrap();
     assert_eq!(tiles.node_index(centre * 16 + 6), [2, 1]);
     assert_eq!(

@@ -2,7 +2,7 @@
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
 use fissure_grid::{
-    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, shape, sums_entry, window_entries,
+    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, Window, shape, sums_entry,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -15,6 +15,7 @@ fn noise(seed: usize) -> f64 {
 struct Both<'a, S, const D: usize> {
     shape: &'a S,
     grid: &'a Grid<D>,
+    window: &'a Window<D>,
     x: &'a [[f64; EIGHT]; D],
     domain: SMatrix<f64, D, D>,
     place: usize,
@@ -32,7 +33,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for Both<'_, S, D> {
         let domain = |_| self.domain;
         let stencils = self
             .shape
-            .stencils(lanes, self.grid, [1; D], self.x, domain);
+            .stencils(lanes, self.grid, self.window, self.x, domain);
         for other in 0..EIGHT {
             let fits = (1..=3).all(|ahead| other != (place + ahead) % EIGHT);
             assert_eq!(stencils.fits(other), fits, "{}: {other}", self.shape.name());
@@ -74,7 +75,7 @@ fn plain<S: Stencil<D>, const D: usize>(
                 found.moment[a][c] += weight * arm[a] * v;
             }
         }
-        for (c, sum) in sums[sums_entry(window)].iter_mut().enumerate() {
+        for (c, sum) in sums[sums_entry::<D>(window)].iter_mut().enumerate() {
             *sum += weight * gift.value[c];
             for a in 0..D {
                 let factor = if c < FIELD {
@@ -90,9 +91,18 @@ fn plain<S: Stencil<D>, const D: usize>(
 }
 
 fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
+    // Cells 4 to 8 are a tile of four, and half of one of eight.
+    compare_in(shape, &Window::of_tile([1; D], 4))?;
+    if D < 3 {
+        compare_in(shape, &Window::of_tile([0; D], 8))?;
+    }
+    Ok(())
+}
+
+fn compare_in<S: Shape<D>, const D: usize>(shape: &S, window: &Window<D>) -> Result<(), String> {
     let grid = Grid::over([0.0; D], [3.0; D], 0.25).map_err(|error| error.to_string())?;
-    let window = window_entries(D);
-    let field: Vec<f64> = (0..window * FIELD).map(noise).collect();
+    let elements = Window::<D>::ELEMENTS;
+    let field: Vec<f64> = (0..elements * FIELD).map(noise).collect();
     let gift = Gift {
         value: std::array::from_fn(|c| noise(c + 1000)),
         sloped: std::array::from_fn(|a| {
@@ -104,13 +114,13 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
     };
     let domain = SMatrix::<f64, D, D>::identity() * 0.06;
     for eight in 0..25 {
-        // Tile 1 holds 1.0 to 2.0.
+        // In cells 4 to 8.
         let at =
             |particle: usize| SVector::from_fn(|axis, _| 1.5 + 0.499 * noise(7 * particle + axis));
         let mut all: [SVector<f64, D>; EIGHT] = std::array::from_fn(|place| at(8 * eight + place));
         let place = eight % EIGHT;
         let stencil = shape
-            .stencil(&grid, [1; D], &all[place], &domain)
+            .stencil(&grid, window, &all[place], &domain)
             .ok_or("no stencil")?;
         // One that is off the grid, one in another tile and one that is nowhere do not disturb the others.
         all[(place + 1) % EIGHT] = SVector::repeat(-1.0);
@@ -123,12 +133,13 @@ fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
             let Some(unit) = Simd::named(name) else {
                 continue;
             };
-            let mut exact_sums = vec![[0.5; SUMS]; sums_entry(window)];
+            let mut exact_sums = vec![[0.5; SUMS]; sums_entry::<D>(elements)];
             let mut sums = exact_sums.clone();
             let exact = plain(&stencil, &field, &gift, &mut exact_sums);
             let found = unit.run(Both {
                 shape,
                 grid: &grid,
+                window,
                 x: &columns,
                 domain,
                 place,

@@ -62,14 +62,14 @@ pub(crate) fn areas<S: Shape<D>, const D: usize>(
             if placement.split_window(run.window).is_none() {
                 continue;
             }
-            let window = placement.nodes(run.window);
-            let tile = placement.coordinates(run.window);
+            let nodes = placement.nodes(run.window);
+            let window = placement.window(run.window);
             for index in run.start as usize..run.end as usize {
-                let stencil = transfers.stencil(body, tile, index);
+                let stencil = transfers.stencil(body, &window, index);
                 let stencil = stencil.ok_or((body_index, index))?;
                 let f = &particles.motion.deformation_gradient[index];
                 let volume = particles.volume[index] * f.determinant();
-                stencil.visit(|entry, _, gradient| sums[window.node(entry)] += gradient * volume);
+                stencil.visit(|entry, _, gradient| sums[nodes.node(entry)] += gradient * volume);
             }
         }
     }

@@ -164,12 +164,12 @@ impl<const D: usize> Constraints<D> {
         condition: &Condition<D>,
     ) -> Result<(), SolveError> {
         let mut mark = |x: &SVector<f64, D>, domain: &SMatrix<f64, D, D>| -> Option<()> {
-            let tile = shape.home(grid, x)?;
-            let stencil = shape.stencil(grid, tile, x, domain)?;
+            let window = placement.window_around(grid, shape, x)?;
+            let stencil = shape.stencil(grid, &window, x, domain)?;
             stencil.visit_values(|entry, weight| {
                 if weight > REACHED {
                     // A node whose tile is not held has no mass either.
-                    placement.each_field(tile, entry, |node| self.reached.push((node, index)));
+                    placement.each_field(&window, entry, |node| self.reached.push((node, index)));
                 }
             });
             Some(())

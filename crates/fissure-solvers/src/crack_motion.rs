@@ -5,7 +5,7 @@
 //! sum of what moved, the two would drift apart while the faces touch, since contact stops only one way: a crack that has
 //! been shut would be held open, at rest, by faces that believe they touch.
 
-use fissure_grid::{Grid, Shape, Stencil, shape::Linear, tile_of, window_node};
+use fissure_grid::{Grid, Shape, Stencil, Window, shape::Linear, tile_of};
 use fissure_scene::{
     CarriedCrack, CrackLine, End, EndState, Scene, Side, SolveError, VertexMotion,
 };
@@ -180,11 +180,12 @@ impl<F: Fn(usize) -> Option<NodeWay<D>>, const D: usize> Faces<'_, F, D> {
     /// moves.
     fn face(&self, face: &Face) -> Option<FaceWay> {
         let place = SVector::from_fn(|axis, _| face.x[axis]);
-        let tile = tile_of(self.grid.cell(&place)?);
-        let stencil = Linear.stencil(self.grid, tile, &place, &SMatrix::zeros())?;
+        let cells = self.placement.tiles.cells();
+        let window = Window::of_tile(tile_of(self.grid.cell(&place)?, cells), cells);
+        let stencil = Linear.stencil(self.grid, &window, &place, &SMatrix::zeros())?;
         let (mut sum, mut weights) = (FaceWay::default(), 0.0);
         stencil.visit_values(|entry, weight| {
-            let index = window_node(tile, entry);
+            let index = window.node(entry);
             if let Some(way) = self.way_at(index, face) {
                 let share = weight * way.weight;
                 sum.moved += plane(&way.moved) * share;

@@ -6,7 +6,7 @@
 //! Nodes that no way to crosses, ahead of a tip for example, keep one field, so that a tip need not
 //! lie on a node. Particles that agree at all nodes of their tile's window make a group.
 
-use fissure_grid::{Grid, WINDOW, window_node};
+use fissure_grid::{Grid, Window};
 use fissure_scene::{Scene, Side, SolveError};
 use nalgebra::{SVector, Vector2};
 
@@ -38,7 +38,8 @@ impl Label {
     }
 }
 
-/// Of every entry of a window the cracks in between; `None` where there are none at all.
+/// Of every number up to a window's last entry the cracks in between, none for those that are no entry; `None` where there
+/// are none at all.
 pub(crate) type Pattern = Option<Box<[u64]>>;
 
 /// The groups of a scene's particles, in an order that depends on what they are alone.
@@ -92,7 +93,7 @@ impl Groups {
 pub(crate) struct Between<'a, const D: usize> {
     grid: &'a Grid<D>,
     cracks: Vec<SplittingCrack<'a>>,
-    tile: Option<[i32; D]>,
+    window: Option<Window<D>>,
     near: Vec<usize>,
 }
 
@@ -109,38 +110,39 @@ impl<'a, const D: usize> Between<'a, D> {
         Ok(Self {
             grid,
             cracks: SplittingCrack::all(cracks, grid.spacing()),
-            tile: None,
+            window: None,
             near: Vec::new(),
         })
     }
 
-    /// The cracks between a particle at `x` and the nodes of its tile's window.
-    pub(crate) fn pattern(&mut self, tile: [i32; D], x: &SVector<f64, D>) -> Pattern {
+    /// The cracks between a particle at `x` and the nodes of its window.
+    pub(crate) fn pattern(&mut self, window: &Window<D>, x: &SVector<f64, D>) -> Pattern {
         if self.cracks.is_empty() || D != 2 {
             return None;
         }
-        if self.tile != Some(tile) {
-            self.tile = Some(tile);
-            self.find_near(tile);
+        if self.window != Some(*window) {
+            self.window = Some(*window);
+            self.find_near(window);
         }
         if self.near.is_empty() {
             return None;
         }
         let x = plane(x);
-        let entries = 0..(WINDOW as usize).pow(D as u32);
-        let pattern: Box<[u64]> = entries
-            .map(|entry| self.cracks_between(&x, &self.node(tile, entry)))
-            .collect();
-        pattern.iter().any(|&cracks| cracks != 0).then_some(pattern)
+        let mut pattern = vec![0; window.last() + 1];
+        for entry in window.entries() {
+            pattern[entry] = self.cracks_between(&x, &self.node(window, entry));
+        }
+        let split = pattern.iter().any(|&cracks| cracks != 0);
+        split.then(|| pattern.into())
     }
 
     fn cracks_between(&self, from: &Vector2<f64>, to: &Vector2<f64>) -> u64 {
         between(&self.cracks, self.near.iter().copied(), from, to)
     }
 
-    fn find_near(&mut self, tile: [i32; D]) {
-        let corner = |entry| self.node(tile, entry);
-        let (low, high) = (corner(0), corner((WINDOW as usize).pow(D as u32) - 1));
+    fn find_near(&mut self, window: &Window<D>) {
+        let corner = |entry| self.node(window, entry);
+        let (low, high) = (corner(0), corner(window.last()));
         let near = |index: &usize| {
             let [from, to] = self.cracks[*index].line.bounds();
             (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis])
@@ -148,8 +150,8 @@ impl<'a, const D: usize> Between<'a, D> {
         self.near = (0..self.cracks.len()).filter(near).collect();
     }
 
-    fn node(&self, tile: [i32; D], entry: usize) -> Vector2<f64> {
-        plane(&self.grid.node(window_node(tile, entry)))
+    fn node(&self, window: &Window<D>, entry: usize) -> Vector2<f64> {
+        plane(&self.grid.node(window.node(entry)))
     }
 }
 

@@ -63,8 +63,7 @@ impl<'a, const D: usize> Loads<'a, D> {
         for &row in rows {
             let off_grid = (body_index, row as usize);
             let window = placement.window_of_row(body_index, row).ok_or(off_grid)?;
-            let coordinates = placement.coordinates(window);
-            let stencil = transfers.stencil(body, coordinates, row as usize);
+            let stencil = transfers.stencil(body, &placement.window(window), row as usize);
             let nodes = placement.nodes(window);
             let share = force * (volume[row as usize] / total);
             stencil.ok_or(off_grid)?.visit_values(|entry, weight| {

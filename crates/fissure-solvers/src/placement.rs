@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fissure_grid::{Grid, Patches, Shape, Tiles, tile_of, window_node};
+use fissure_grid::{Grid, Patches, Shape, TileSize, Tiles, Window, tile_of};
 use fissure_particles::sort_permutation;
 use fissure_scene::{Run, Scene, Selection, SolveError};
 use nalgebra::SVector;
@@ -17,8 +17,6 @@ use crate::window::WindowNodes;
 
 /// How far cracks may move, in cells, before particles are sorted by them anew.
 pub(crate) const CRACKS_MOVE: f64 = 0.05;
-/// Entries of a window in the plane.
-const WINDOW_ENTRIES: usize = 64;
 /// The lower half of the bits of a label.
 const HALF: u64 = 0xffff_ffff;
 
@@ -69,8 +67,8 @@ pub struct Placement<const D: usize> {
     occupied: Vec<(u32, u32)>,
     /// How far the cracks have moved since the patterns were found, m.
     crack_motion: f64,
-    /// Whether `homes` were recalled from a checkpoint.
-    recalled: bool,
+    /// Cells along an axis of the tiles in `homes` that were recalled from a checkpoint.
+    recalled: Option<i32>,
 }
 
 impl<const D: usize> Default for Placement<D> {
@@ -90,7 +88,7 @@ impl<const D: usize> Default for Placement<D> {
             groups: Groups::default(),
             occupied: Vec::new(),
             crack_motion: 0.0,
-            recalled: false,
+            recalled: None,
         }
     }
 }
@@ -111,10 +109,11 @@ impl<const D: usize> Placement<D> {
     pub(crate) fn note_moves<S: Shape<D>>(&mut self, grid: &Grid<D>, shape: &S, scene: &Scene<D>) {
         self.moved = scene.bodies().iter().zip(&self.runs).any(|(body, runs)| {
             let position = body.motion().position;
+            let cells = self.tiles.cells();
             runs.par_iter().with_min_len(16).any(|run| {
                 let home = Some(self.coordinates(run.window));
                 let particles = &position[run.start as usize..run.end as usize];
-                particles.iter().any(|x| shape.home(grid, x) != home)
+                particles.iter().any(|x| shape.home(grid, x, cells) != home)
             })
         });
     }
@@ -129,11 +128,12 @@ impl<const D: usize> Placement<D> {
         shape: &S,
         scene: &mut Scene<D>,
     ) -> Result<(), SolveError> {
-        self.find_homes(grid, shape, scene)?;
+        let size = tile_size(scene);
+        self.find_homes(grid, shape, scene, size)?;
         self.patches = shape.patches().cloned();
         match self.patches {
-            Some(_) => self.tiles.rebuild(std::iter::empty()),
-            None => self.tiles.rebuild(self.homes.iter().copied()),
+            Some(_) => self.tiles.rebuild(size, std::iter::empty()),
+            None => self.tiles.rebuild(size, self.homes.iter().copied()),
         }
         self.runs.clear();
         let fields: Vec<u32> = (0..scene.bodies().len())
@@ -230,18 +230,20 @@ impl<const D: usize> Placement<D> {
         !(self.crack_motion <= CRACKS_MOVE * grid.spacing())
     }
 
-    /// The tile that every particle is sorted by: the one it is in, or the recalled one.
+    /// The tile of this size that every particle is sorted by: the one it is in, or the recalled one.
     fn find_homes<S: Shape<D>>(
         &mut self,
         grid: &Grid<D>,
         shape: &S,
         scene: &Scene<D>,
+        size: TileSize,
     ) -> Result<(), SolveError> {
+        let cells = size.cells::<D>();
         let known = |home: &[i32; D]| {
             let patches = shape.patches();
             patches.is_none_or(|patches| (0..patches.len()).contains(&(home[0] as usize)))
         };
-        let recalled = std::mem::take(&mut self.recalled)
+        let recalled = self.recalled.take() == Some(cells)
             && !self.cracks_have_moved(grid)
             && self.homes.iter().all(known);
         if recalled && self.homes.len() == scene.particle_count() {
@@ -253,11 +255,12 @@ impl<const D: usize> Placement<D> {
         let mut between = Between::new(grid, scene)?;
         for (body, owner) in scene.bodies().iter().enumerate() {
             for (index, x) in owner.motion().position.iter().enumerate() {
-                let home = shape.home(grid, x);
+                let home = shape.home(grid, x, cells);
                 let home = home.ok_or_else(|| outside(scene, body, index))?;
                 self.homes.push(home);
                 if !scene.cracks().is_empty() {
-                    self.patterns.push(between.pattern(home, x));
+                    let window = Window::of_tile(home, cells);
+                    self.patterns.push(between.pattern(&window, x));
                 }
             }
         }
@@ -268,12 +271,13 @@ impl<const D: usize> Placement<D> {
     /// cracks between them and their nodes: they may have moved on since, and a restarted run is to
     /// sum in the same order.
     pub(crate) fn memory(&self) -> Vec<f64> {
-        let mut memory = vec![self.crack_motion];
+        // Below zero, unlike what older checkpoints have in its place.
+        let mut memory = vec![self.crack_motion, -f64::from(self.tiles.cells())];
         for (run, &(_, group)) in self.runs.iter().flatten().zip(&self.occupied) {
             let pattern = self.groups.pattern(group).as_deref();
             memory.push(run.len() as f64);
             memory.extend(self.coordinates(run.window).map(f64::from));
-            memory.push(f64::from(u8::from(pattern.is_some())));
+            memory.push(pattern.map_or(0, <[u64]>::len) as f64);
             let halves = |&cracks: &u64| [cracks >> 32, cracks & HALF].map(|half| half as f64);
             memory.extend(pattern.into_iter().flatten().flat_map(halves));
         }
@@ -286,11 +290,17 @@ impl<const D: usize> Placement<D> {
         self.patterns.clear();
         let mut numbers = memory.iter().copied();
         self.crack_motion = numbers.next().unwrap_or(0.0);
+        let cells = -numbers.next().unwrap_or(0.0) as i32;
+        self.recalled = (cells > 0).then_some(cells);
+        self.edits = None;
+        if self.recalled.is_none() {
+            return;
+        }
         while let Some(particles) = numbers.next() {
             let mut next = || numbers.next().unwrap_or(0.0);
             let home = std::array::from_fn(|_| next() as i32);
-            let entries = if next() == 1.0 { WINDOW_ENTRIES } else { 0 };
-            let cracks: Box<[u64]> = (0..entries)
+            let numbers_of_pattern = next() as usize;
+            let cracks: Box<[u64]> = (0..numbers_of_pattern)
                 .map(|_| (next() as u64) << 32 | next() as u64)
                 .collect();
             let pattern: Pattern = (!cracks.is_empty()).then_some(cracks);
@@ -301,8 +311,6 @@ impl<const D: usize> Placement<D> {
         if self.patterns.iter().all(Option::is_none) {
             self.patterns.clear();
         }
-        self.recalled = !self.homes.is_empty();
-        self.edits = None;
     }
 
     /// Splits nodes where groups meet, and turns the runs' tiles into windows.
@@ -343,24 +351,46 @@ impl<const D: usize> Placement<D> {
         self.splits.windows.get(split)
     }
 
-    /// Coordinates of the tile of a window.
-    pub(crate) fn coordinates(&self, window: u32) -> [i32; D] {
+    /// Coordinates of the tile of a window; on a mesh the number of its patch is the first.
+    fn coordinates(&self, window: u32) -> [i32; D] {
         if self.patches.is_some() {
-            let mut coordinates = [0; D];
-            coordinates[0] = window as i32;
-            return coordinates;
+            return Window::of_patch(window).first;
         }
         let tile = self.split_window(window).map_or(window, |split| split.tile);
         self.tiles.coordinates(tile as usize)
     }
 
+    /// What stencils of the particles of a window are made for.
+    pub(crate) fn window(&self, number: u32) -> Window<D> {
+        self.window_of_home(self.coordinates(number))
+    }
+
+    /// The window of the tile with these coordinates, or of the patch with this number.
+    fn window_of_home(&self, home: [i32; D]) -> Window<D> {
+        match self.patches {
+            Some(_) => Window::of_patch(home[0] as u32),
+            None => Window::of_tile(home, self.tiles.cells()),
+        }
+    }
+
+    /// The window for a point at `x`, m, that is on the grid or mesh.
+    pub(crate) fn window_around<S: Shape<D>>(
+        &self,
+        grid: &Grid<D>,
+        shape: &S,
+        x: &SVector<f64, D>,
+    ) -> Option<Window<D>> {
+        let home = shape.home(grid, x, self.tiles.cells())?;
+        Some(self.window_of_home(home))
+    }
+
     /// The nodes of a window.
     pub(crate) fn nodes(&self, window: u32) -> WindowNodes<'_, D> {
         if let Some(patches) = &self.patches {
-            return WindowNodes::listed(patches.window(window as usize));
+            return WindowNodes::listed(&self.tiles, patches.window(window as usize));
         }
         match self.split_window(window) {
-            Some(split) => WindowNodes::listed(&split.nodes),
+            Some(split) => WindowNodes::listed(&self.tiles, &split.nodes),
             None => WindowNodes::of_tile(&self.tiles, window as usize),
         }
     }
@@ -395,20 +425,25 @@ impl<const D: usize> Placement<D> {
 
     /// The node of a grid index, if its tile is held; of several fields the first.
     pub(crate) fn node(&self, index: [i32; D]) -> Option<usize> {
-        let tile = self.tiles.find(tile_of(index))?;
+        let cells = self.tiles.cells();
+        let tile = self.tiles.find(tile_of(index, cells))?;
         let local = (0..D)
             .rev()
-            .fold(0, |sum, axis| sum * 4 + index[axis].rem_euclid(4) as usize);
-        Some(tile * Tiles::<D>::NODES + local)
+            .fold(0, |sum, axis| sum * cells + index[axis].rem_euclid(cells));
+        Some(tile * self.tiles.nodes_each() + local as usize)
     }
 
-    /// Calls `visit` with the node of a window entry of a tile, if that is held, and those of its
-    /// further fields.
-    pub(crate) fn each_field(&self, tile: [i32; D], entry: usize, mut visit: impl FnMut(usize)) {
+    /// Calls `visit` with the node of a window's entry, if that is held, and those of its further fields.
+    pub(crate) fn each_field(
+        &self,
+        window: &Window<D>,
+        entry: usize,
+        mut visit: impl FnMut(usize),
+    ) {
         if let Some(patches) = &self.patches {
-            return visit(patches.window(tile[0] as usize)[entry] as usize);
+            return visit(patches.window(window.first[0] as usize)[entry] as usize);
         }
-        let Some(node) = self.node(window_node(tile, entry)) else {
+        let Some(node) = self.node(window.node(entry)) else {
             return;
         };
         visit(node);
@@ -429,6 +464,15 @@ impl<const D: usize> Placement<D> {
             self.selected
                 .push(chosen.map(|(index, _)| index as u32).collect());
         }
+    }
+}
+
+/// Cracks split windows near their tips into many, which are to be small.
+fn tile_size<const D: usize>(scene: &Scene<D>) -> TileSize {
+    if scene.cracks().is_empty() {
+        TileSize::Wide
+    } else {
+        TileSize::Narrow
     }
 }
 

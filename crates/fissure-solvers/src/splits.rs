@@ -7,12 +7,12 @@
 //! Whatever works on nodes need not know. Transfers go through the window of a tile and a group,
 //! which is the plain one of the tile unless a node in it is split.
 
-use fissure_grid::{ABSENT, TILE, Tiles, WINDOW, WINDOW_START, window_map};
+use fissure_grid::{ABSENT, Tiles};
 
 use crate::groups::{Groups, Label};
 use crate::window::WindowNodes;
 
-/// Marks a window entry whose node is not split.
+/// Marks a window entry whose node is not split, and the number of none.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// A field at a split node.
@@ -29,7 +29,7 @@ pub(crate) struct Copy {
 pub(crate) struct SplitWindow {
     pub tile: u32,
     pub group: u32,
-    /// Node of every entry.
+    /// Node of every entry, [`NONE`] for numbers that are no entry.
     pub nodes: Box<[u32]>,
     /// Index into [`Splits::copies`] of every entry, [`NONE`] where the node is not split.
     pub copies: Box<[u32]>,
@@ -65,7 +65,7 @@ impl Splits {
         let mut fields: Vec<(u32, Label)> = Vec::new();
         for &(tile, group) in &near {
             let nodes = WindowNodes::of_tile(tiles, tile as usize);
-            let entries = 0..window_map::<D>().len();
+            let entries = tiles.window(tile as usize).entries();
             let field = |entry| (nodes.node(entry) as u32, groups.label(group, entry));
             fields.extend(entries.map(field));
         }
@@ -100,23 +100,25 @@ impl Splits {
 
     fn window<const D: usize>(&mut self, tiles: &Tiles<D>, groups: &Groups, tile: u32, group: u32) {
         let plain = WindowNodes::of_tile(tiles, tile as usize);
-        let entries = window_map::<D>().len();
-        let copies: Box<[u32]> = (0..entries)
-            .map(|entry| self.copy(plain.node(entry), groups.label(group, entry)))
-            .collect();
+        let numbers = tiles.map().len();
+        let mut copies = vec![NONE; numbers];
+        let mut nodes = vec![NONE; numbers];
+        for entry in tiles.window(tile as usize).entries() {
+            let node = plain.node(entry);
+            copies[entry] = self.copy(node, groups.label(group, entry));
+            nodes[entry] = match copies[entry] {
+                NONE => node as u32,
+                copy => self.copies[copy as usize].node,
+            };
+        }
         if copies.iter().all(|&copy| copy == NONE) {
             return;
         }
-        let nodes = (0..entries).map(|entry| match copies[entry] {
-            NONE => plain.node(entry) as u32,
-            copy => self.copies[copy as usize].node,
-        });
-        let nodes = nodes.collect();
         self.windows.push(SplitWindow {
             tile,
             group,
-            nodes,
-            copies,
+            nodes: nodes.into(),
+            copies: copies.into(),
         });
     }
 
@@ -157,8 +159,7 @@ fn near_a_difference<const D: usize>(
     groups: &Groups,
     occupied: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
-    // Windows reach two nodes beyond their tile: only those of neighbours overlap.
-    const { assert!(WINDOW - TILE + WINDOW_START <= TILE && -WINDOW_START <= TILE) };
+    // Windows reach two nodes beyond their tile, which has more: only those of neighbours overlap.
     let groups_at = |tile: u32| {
         let first = occupied.partition_point(|&(other, _)| other < tile);
         let same = occupied[first..].iter();

@@ -5,7 +5,7 @@
 //! so every sum has one order and the same bits on any number of threads.
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask, read_numbers};
-use fissure_grid::{FIELD, Grid, SUMS, Shape, Stencils};
+use fissure_grid::{FIELD, Grid, SUMS, Shape, Stencils, Window};
 use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
 use nalgebra::{SMatrix, SVector};
 
@@ -67,13 +67,13 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     pub(crate) fn stencil(
         &self,
         body: &Body<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         index: usize,
     ) -> Option<S::Stencil> {
         let motion = &body.particles().motion;
         self.stencil_at(
             body.half_edges(),
-            tile,
+            window,
             &motion.position[index],
             &motion.deformation_gradient[index],
         )
@@ -84,12 +84,12 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
     pub(crate) fn stencil_at(
         &self,
         half_edges: &SMatrix<f64, D, D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         f: &nalgebra::Matrix3<f64>,
     ) -> Option<S::Stencil> {
         let domain = self.shape.domain(half_edges, &Body::<D>::in_space(f));
-        self.shape.stencil(self.grid, tile, x, &domain)
+        self.shape.stencil(self.grid, window, x, &domain)
     }
 
     /// Stencils of eight particles at `x`, with the deformation gradients of the first eight of these rows; the last
@@ -99,7 +99,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         &self,
         lanes: L,
         half_edges: &SMatrix<f64, D, D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         f: &[nalgebra::Matrix3<f64>],
     ) -> S::Stencils {
@@ -107,7 +107,7 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
             let f = &f[place.min(f.len() - 1)];
             self.shape.domain(half_edges, &Body::<D>::in_space(f))
         };
-        self.shape.stencils(lanes, self.grid, tile, x, domain)
+        self.shape.stencils(lanes, self.grid, window, x, domain)
     }
 
     /// Sums to the nodes what the particles give.
@@ -139,10 +139,10 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         let task = SpreadRuns {
             transfers: self,
             body: &scene.bodies()[body_index],
-            tile: self.placement.coordinates(number),
+            window: self.placement.window(number),
             runs,
             given,
-            window: &mut window.0,
+            sums: &mut window.0,
         };
         self.simd.run(task).map_err(|index| (body_index, index))?;
         self.placement.nodes(number).add(&window.0, sums);
@@ -182,10 +182,10 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
         let task = RelayRuns {
             transfers: self,
             body: &scene.bodies()[body_index],
-            tile: self.placement.coordinates(number),
+            window: self.placement.window(number),
             runs,
             values: values.as_flattened(),
-            window: &mut window.0,
+            sums: &mut window.0,
         };
         self.simd.run(task).map_err(|index| (body_index, index))?;
         nodes.add(&window.0, sums);
@@ -210,10 +210,10 @@ impl<S: Shape<D>, const D: usize> Transfers<'_, S, D> {
 struct SpreadRuns<'a, S, const D: usize> {
     transfers: &'a Transfers<'a, S, D>,
     body: &'a Body<D>,
-    tile: [i32; D],
+    window: Window<D>,
     runs: &'a [Run],
     given: Given,
-    window: &'a mut [[f64; SUMS]],
+    sums: &'a mut [[f64; SUMS]],
 }
 
 impl<S: Shape<D>, const D: usize> SpreadRuns<'_, S, D> {
@@ -267,7 +267,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
                 let stencils = self.transfers.stencils_at(
                     lanes,
                     self.body.half_edges(),
-                    self.tile,
+                    &self.window,
                     &positions(lanes, &motion.position[rows.clone()]),
                     &motion.deformation_gradient[rows.clone()],
                 );
@@ -277,10 +277,10 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
                 let gift = self.gift(lanes, rows.clone());
                 if sloped {
                     let gifts = gift.rows::<L, true>(lanes);
-                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), self.window);
+                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), self.sums);
                 } else {
                     let gifts = gift.rows::<L, false>(lanes);
-                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), self.window);
+                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), self.sums);
                 }
             }
         }
@@ -291,10 +291,10 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
 struct RelayRuns<'a, S, const D: usize> {
     transfers: &'a Transfers<'a, S, D>,
     body: &'a Body<D>,
-    tile: [i32; D],
+    window: Window<D>,
     runs: &'a [Run],
     values: &'a [f64],
-    window: &'a mut [[f64; SUMS]],
+    sums: &'a mut [[f64; SUMS]],
 }
 
 impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
@@ -310,7 +310,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
                 let stencils = self.transfers.stencils_at(
                     lanes,
                     self.body.half_edges(),
-                    self.tile,
+                    &self.window,
                     &positions(lanes, &motion.position[first..end]),
                     &motion.deformation_gradient[first..end],
                 );
@@ -323,7 +323,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
                 v.copy_from_slice(&gathered.value[..D]);
                 let mass = read_numbers(lanes, &particles.mass[first..end]);
                 let gifts = GiftColumns::momentum(lanes, mass, &v).rows::<L, false>(lanes);
-                stencils.scatter::<L, false>(lanes, &gifts, count, self.window);
+                stencils.scatter::<L, false>(lanes, &gifts, count, self.sums);
             }
         }
         Ok(())

@@ -1,37 +1,38 @@
 //! The nodes that a tile's particles reach, as dense arrays on the stack of one thread.
 
-use fissure_grid::{FIELD, SUMS, Tiles, WINDOW, sums_entry, window_entries, window_map};
+use fissure_grid::{FIELD, SUMS, Tiles, WINDOW_START, Window, sums_entry};
 
 use crate::nodes::NodeSums;
+use crate::splits::NONE;
 
 /// Where the nodes of a window are.
 pub(crate) struct WindowNodes<'a, const D: usize> {
     /// First node of each of the tiles around.
     bases: [usize; 27],
-    map: &'static [(u8, u8)],
-    /// The node of every entry, where some are split or they do not stand in rows.
+    tiles: &'a Tiles<D>,
+    /// The node of every entry, where some are split or they do not stand in rows; [`NONE`] for a number that is no entry.
     listed: Option<&'a [u32]>,
 }
 
 impl<'a, const D: usize> WindowNodes<'a, D> {
     /// The plain window of a tile.
-    pub(crate) fn of_tile(tiles: &Tiles<D>, tile: usize) -> Self {
+    pub(crate) fn of_tile(tiles: &'a Tiles<D>, tile: usize) -> Self {
         let mut bases = [0; 27];
         for (base, &around) in bases.iter_mut().zip(tiles.around(tile)) {
-            *base = around as usize * Tiles::<D>::NODES;
+            *base = around as usize * tiles.nodes_each();
         }
         Self {
             bases,
-            map: window_map::<D>(),
+            tiles,
             listed: None,
         }
     }
 
     /// The window of these nodes.
-    pub(crate) fn listed(nodes: &'a [u32]) -> Self {
+    pub(crate) fn listed(tiles: &'a Tiles<D>, nodes: &'a [u32]) -> Self {
         Self {
             bases: [0; 27],
-            map: window_map::<D>(),
+            tiles,
             listed: Some(nodes),
         }
     }
@@ -42,7 +43,7 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
         if let Some(nodes) = self.listed {
             return nodes[entry] as usize;
         }
-        let (neighbour, local) = self.map[entry];
+        let (neighbour, local) = self.tiles.map()[entry];
         self.bases[neighbour as usize] + local as usize
     }
 
@@ -51,14 +52,32 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
     fn rows(&self, mut row: impl FnMut(usize, usize, usize)) {
         if let Some(nodes) = self.listed {
             for (entry, &node) in nodes.iter().enumerate() {
-                row(entry, node as usize, 1);
+                if node != NONE {
+                    row(entry, node as usize, 1);
+                }
             }
             return;
         }
-        // Two nodes of the tile below along axis 0, four of the tile itself, two of the one above.
-        for start in (0..self.map.len()).step_by(WINDOW as usize) {
-            for (offset, count) in [(0, 2), (2, 4), (6, 2)] {
-                row(start + offset, self.node(start + offset), count);
+        // Numbers that are known when this is compiled make short work of a row.
+        match self.tiles.cells() {
+            8 => self.plain_rows::<8>(row),
+            _ => self.plain_rows::<4>(row),
+        }
+    }
+
+    /// The rows of a plain window: two nodes of the tile below along axis 0, those of the tile itself, two of the one above.
+    #[inline(always)]
+    fn plain_rows<const CELLS: usize>(&self, mut row: impl FnMut(usize, usize, usize)) {
+        const BESIDE: usize = -WINDOW_START as usize;
+        let lines = |axis| if axis < D { CELLS + 2 * BESIDE } else { 1 };
+        for k in 0..lines(2) {
+            for j in 0..lines(1) {
+                let start = Window::<D>::ROW * (Window::<D>::ROW * k + j);
+                let mut part =
+                    |offset, count| row(start + offset, self.node(start + offset), count);
+                part(0, BESIDE);
+                part(BESIDE, CELLS);
+                part(BESIDE + CELLS, BESIDE);
             }
         }
     }
@@ -77,20 +96,20 @@ impl<'a, const D: usize> WindowNodes<'a, D> {
     pub(crate) fn add(&self, window: &[[f64; SUMS]], sums: &NodeSums<D>) {
         self.rows(|entry, node, count| {
             for i in 0..count {
-                sums.add(node + i, &window[sums_entry(entry + i)]);
+                sums.add(node + i, &window[sums_entry::<D>(entry + i)]);
             }
         });
     }
 }
 
 /// Elements of arrays over a window in the plane.
-pub(crate) const SQUARE: usize = window_entries(2);
+pub(crate) const SQUARE: usize = Window::<2>::ELEMENTS;
 /// The same of its sums.
-pub(crate) const SQUARE_SUMS: usize = sums_entry(SQUARE);
+pub(crate) const SQUARE_SUMS: usize = sums_entry::<2>(SQUARE);
 /// Elements of arrays over a window in space.
-pub(crate) const CUBE: usize = window_entries(3);
+pub(crate) const CUBE: usize = Window::<3>::ELEMENTS;
 /// The same of its sums.
-pub(crate) const CUBE_SUMS: usize = sums_entry(CUBE);
+pub(crate) const CUBE_SUMS: usize = sums_entry::<3>(CUBE);
 
 /// Sums of a window, aligned so that a node's numbers lie in one cache line.
 #[repr(align(64))]

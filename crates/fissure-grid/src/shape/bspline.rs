@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::axes::Numbers;
 use crate::separable::{Line, Profile};
 use crate::simd::{EIGHT, Lanes};
-use crate::{Grid, Separable, SeparableStencils, Shape};
+use crate::{Grid, Separable, SeparableStencils, Shape, Window};
 
 /// Quadratic B-splines, continuous gradient. The domain is not used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,11 +29,11 @@ impl<const D: usize> Shape<D> for Bspline2 {
     fn stencil(
         &self,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, self)
+        Separable::new(grid, window, x, self)
     }
 
     #[inline(always)]
@@ -41,11 +41,11 @@ impl<const D: usize> Shape<D> for Bspline2 {
         &self,
         lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(lanes, grid, tile, x, self)
+        SeparableStencils::new(lanes, grid, window, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {
@@ -74,11 +74,11 @@ impl<const D: usize> Shape<D> for Bspline3 {
     fn stencil(
         &self,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         _domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, self)
+        Separable::new(grid, window, x, self)
     }
 
     #[inline(always)]
@@ -86,11 +86,11 @@ impl<const D: usize> Shape<D> for Bspline3 {
         &self,
         lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         _domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
-        SeparableStencils::new(lanes, grid, tile, x, self)
+        SeparableStencils::new(lanes, grid, window, x, self)
     }
 
     fn reach(&self) -> (i32, i32) {

@@ -3,8 +3,7 @@
 use fissure_tensor::Band;
 use nalgebra::{SMatrix, SVector};
 
-use crate::window::window_start;
-use crate::{Grid, OneByOne, Shape, Stencil, TILE, WINDOW_START, simd::EIGHT, simd::Lanes};
+use crate::{Grid, OneByOne, Shape, Stencil, Window, simd::EIGHT, simd::Lanes};
 
 /// Corners of a parallelepiped, the most a domain has.
 const MOST_CORNERS: usize = 8;
@@ -18,7 +17,7 @@ const MOST_CORNERS: usize = 8;
 ///
 /// A domain may extend one cell from its centre along each grid axis. A longer one is shortened along that axis, after the
 /// idea of Homel, Brannon & Guilkey (2016): the particle then parts from its neighbours at a stretch that does not depend
-/// on where it sits in its tile. Consistency is not touched, since the shortened domain is a parallelepiped too. No
+/// on where it sits in its window. Consistency is not touched, since the shortened domain is a parallelepiped too. No
 /// stencil for a domain without volume, which has no gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cpdi;
@@ -56,7 +55,7 @@ impl<const D: usize> Shape<D> for Cpdi {
     fn stencil(
         &self,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
@@ -79,13 +78,13 @@ impl<const D: usize> Shape<D> for Cpdi {
                 // The corner is at most one cell away, so this is the floor.
                 let offset = i32::from(at[axis] >= 1.0) - i32::from(at[axis] < 0.0);
                 corners.locals[corner][axis] = at[axis] - f64::from(offset);
-                corners.bases[corner] +=
-                    window_start(tile[axis], cell[axis] + offset, 2)? << (3 * axis);
+                let start = window.start(axis, cell[axis] + offset, 2)?;
+                corners.bases[corner] += start * Window::<D>::ROW.pow(axis as u32);
             }
         }
-        // The tile is near now, or some corner would not have been in its window.
+        // The window is near now, or some corner would not have been in it.
         corners.arm = SVector::from_fn(|axis, _| {
-            let nodes = TILE * tile[axis] + WINDOW_START - cell[axis];
+            let nodes = window.first[axis] - cell[axis];
             (f64::from(nodes) - local[axis]) * grid.spacing()
         });
         Some(corners)
@@ -96,14 +95,14 @@ impl<const D: usize> Shape<D> for Cpdi {
         &self,
         _lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         let mut stencils = [None; EIGHT];
         for (place, stencil) in stencils.iter_mut().enumerate() {
             let x = SVector::from_fn(|axis, _| x[axis][place]);
-            *stencil = self.stencil(grid, tile, &x, &domain(place));
+            *stencil = self.stencil(grid, window, &x, &domain(place));
         }
         OneByOne(stencils)
     }
@@ -148,7 +147,7 @@ impl<const D: usize> Corners<D> {
                 let mut weight = 1.0;
                 for axis in 0..D {
                     let upper = node >> axis & 1;
-                    window += upper << (3 * axis);
+                    window += upper * Window::<D>::ROW.pow(axis as u32);
                     weight *= if upper == 1 { t[axis] } else { 1.0 - t[axis] };
                 }
                 f(corner, window, weight);
@@ -178,7 +177,7 @@ impl<const D: usize> Stencil<D> for Corners<D> {
 
     #[inline]
     fn arm(&self, window: usize) -> SVector<f64, D> {
-        let place = SVector::from_fn(|axis, _| (window >> (3 * axis) & 7) as f64);
-        self.arm + place * self.spacing
+        let place = Window::<D>::place(window);
+        self.arm + SVector::from_fn(|axis, _| place[axis] as f64) * self.spacing
     }
 }

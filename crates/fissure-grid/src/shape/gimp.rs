@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::axes::Numbers;
 use crate::separable::{Line, Profile};
 use crate::simd::{EIGHT, Lanes};
-use crate::{Grid, Separable, SeparableStencils, Shape};
+use crate::{Grid, Separable, SeparableStencils, Shape, Window};
 
 /// uGIMP: linear functions averaged over a cube of fixed size round the particle (Bardenhagen & Kober 2004).
 ///
@@ -30,11 +30,11 @@ impl<const D: usize> Shape<D> for Gimp {
     fn stencil(
         &self,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &SVector<f64, D>,
         domain: &SMatrix<f64, D, D>,
     ) -> Option<Self::Stencil> {
-        Separable::new(grid, tile, x, &Averaged::of(grid, domain)?)
+        Separable::new(grid, window, x, &Averaged::of(grid, domain)?)
     }
 
     #[inline(always)]
@@ -42,12 +42,12 @@ impl<const D: usize> Shape<D> for Gimp {
         &self,
         lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         domain: impl Fn(usize) -> SMatrix<f64, D, D>,
     ) -> Self::Stencils {
         match Averaged::of(grid, &domain(0)) {
-            Some(averaged) => SeparableStencils::new(lanes, grid, tile, x, &averaged),
+            Some(averaged) => SeparableStencils::new(lanes, grid, window, x, &averaged),
             None => SeparableStencils::none(),
         }
     }

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Vector2};
 use crate::patches::Patches;
 use crate::quads::QuadStencil;
 use crate::simd::{EIGHT, Lanes};
-use crate::{Grid, OneByOne, QuadMesh, Shape};
+use crate::{Grid, OneByOne, QuadMesh, Shape, Window};
 
 /// The functions of a [`QuadMesh`]: of the corners of the element that a particle is in. Goes with
 /// [`QuadMesh::grid`] as the grid of a solver; the domain of a particle is not used.
@@ -34,7 +34,7 @@ impl Shape<2> for Isoparametric {
         self.0.grid() == *grid
     }
 
-    fn home(&self, _grid: &Grid<2>, x: &Vector2<f64>) -> Option<[i32; 2]> {
+    fn home(&self, _grid: &Grid<2>, x: &Vector2<f64>, _cells: i32) -> Option<[i32; 2]> {
         let patch = self.0.patches().home(self.0.element(x)? as u32);
         Some([patch as i32, 0])
     }
@@ -43,11 +43,13 @@ impl Shape<2> for Isoparametric {
     fn stencil(
         &self,
         _grid: &Grid<2>,
-        tile: [i32; 2],
+        window: &Window<2>,
         x: &Vector2<f64>,
         _domain: &Matrix2<f64>,
     ) -> Option<QuadStencil> {
-        self.0.stencil(tile[0] as u32, None, x).map(|found| found.0)
+        self.0
+            .stencil(window.first[0] as u32, None, x)
+            .map(|found| found.0)
     }
 
     #[inline]
@@ -55,7 +57,7 @@ impl Shape<2> for Isoparametric {
         &self,
         _lanes: L,
         _grid: &Grid<2>,
-        tile: [i32; 2],
+        window: &Window<2>,
         x: &[[f64; EIGHT]; 2],
         _domain: impl Fn(usize) -> Matrix2<f64>,
     ) -> OneByOne<QuadStencil> {
@@ -63,7 +65,7 @@ impl Shape<2> for Isoparametric {
         let mut last = None;
         OneByOne(std::array::from_fn(|place| {
             let x = Vector2::new(x[0][place], x[1][place]);
-            let (stencil, element) = self.0.stencil(tile[0] as u32, last, &x)?;
+            let (stencil, element) = self.0.stencil(window.first[0] as u32, last, &x)?;
             last = Some(element);
             Some(stencil)
         }))

@@ -75,7 +75,7 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
                 } else {
                     SVector::zeros()
                 };
-                for (c, sum) in sums[sums_entry(window)].iter_mut().enumerate() {
+                for (c, sum) in sums[sums_entry::<D>(window)].iter_mut().enumerate() {
                     *sum += gift.value[c] * weight;
                     for a in 0..if E { D } else { 0 } {
                         let factor = if c < FIELD {

@@ -7,14 +7,10 @@ use crate::axes::Numbers;
 use crate::separable::Profile;
 use crate::simd::{EIGHT, Lanes, chunks};
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
-use crate::{Grid, TILE, WINDOW, WINDOW_START, sums_entry};
+use crate::{Grid, Window, sums_entry};
 
-/// Window stride of axis 1.
-const ROW: usize = WINDOW as usize;
 /// A number whose last bit counts ones: added to a whole number it leaves that in its last bits.
 const LAST_BIT_ONE: f64 = 4_503_599_627_370_496.0;
-/// Window stride of axis 2.
-const LAYER: usize = (WINDOW * WINDOW) as usize;
 
 /// Stencils that are products of one weight per axis, K nodes along each of D axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,15 +47,14 @@ impl<const K: usize> Along<K> {
         lanes: L,
         grid: &Grid<D>,
         axis: usize,
-        tile: i32,
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         profile: &impl Profile<K>,
     ) -> (Numbers<EIGHT>, u8) {
         let position = Numbers(x[axis]);
         let (cell, local) = grid.along(axis, position);
         let (first, values, slopes) = profile.line(local);
-        let window = f64::from(TILE) * f64::from(tile) + f64::from(WINDOW_START);
-        let start = cell + first + -window;
+        let start = cell + first + -f64::from(window.first[axis]);
         let arm = (first - local) * grid.spacing();
         for k in 0..K {
             self.values[k] = values[k].0;
@@ -67,7 +62,7 @@ impl<const K: usize> Along<K> {
             self.moments[k] = (values[k] * (arm + k as f64 * grid.spacing())).0;
         }
         // The position comes last, so that what is no number stays so.
-        let to_ends = start.min(-start + (f64::from(WINDOW) - K as f64));
+        let to_ends = start.min(-start + (f64::from(window.nodes) - K as f64));
         let above = position + -grid.origin()[axis];
         let below = -position + grid.max()[axis];
         let fitting = lanes.not_negative(lanes.load(&to_ends.min(above).min(below).0));
@@ -114,21 +109,21 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     pub(crate) fn new<L: Lanes>(
         lanes: L,
         grid: &Grid<D>,
-        tile: [i32; D],
+        window: &Window<D>,
         x: &[[f64; EIGHT]; D],
         profile: &impl Profile<K>,
     ) -> Self {
         let mut along = [Along::NOTHING; D];
         // Written out, so that no axis is a number at run time.
-        let (mut base, mut fitting) = along[0].set(lanes, grid, 0, tile[0], x, profile);
+        let (mut base, mut fitting) = along[0].set(lanes, grid, 0, window, x, profile);
         if D > 1 {
-            let (start, fits) = along[1 % D].set(lanes, grid, 1, tile[1 % D], x, profile);
-            base = base + start * ROW as f64;
+            let (start, fits) = along[1 % D].set(lanes, grid, 1, window, x, profile);
+            base = base + start * Self::ROW as f64;
             fitting &= fits;
         }
         if D > 2 {
-            let (start, fits) = along[2 % D].set(lanes, grid, 2, tile[2 % D], x, profile);
-            base = base + start * LAYER as f64;
+            let (start, fits) = along[2 % D].set(lanes, grid, 2, window, x, profile);
+            base = base + start * Self::LAYER as f64;
             fitting &= fits;
         }
         let mut stencils = Self {
@@ -154,7 +149,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     /// Window index of the lowest node; that of some node if the particle does not fit.
     #[inline(always)]
     fn base(&self, place: usize) -> usize {
-        self.base[place] as usize & Self::LAST
+        (self.base[place] as u16 as usize).min(Self::LAST)
     }
 
     /// Nodes along an axis; the axes that space has not have one.
@@ -163,21 +158,25 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         if axis < D { K } else { 1 }
     }
 
+    /// From a node to the next along axis 1.
+    const ROW: usize = Window::<D>::ROW;
+    /// From a node to the next along axis 2.
+    const LAYER: usize = Self::ROW * Self::ROW;
     /// The last window index.
-    const LAST: usize = (1 << (3 * D)) - 1;
+    const LAST: usize = Window::<D>::ENTRIES - 1;
 
     /// Nodes from the stencil's first to its last.
     const SPAN: usize = match D {
         1 => K,
-        2 => ROW * (K - 1) + K,
-        _ => (ROW + LAYER) * (K - 1) + K,
+        2 => Self::ROW * (K - 1) + K,
+        _ => (Self::ROW + Self::LAYER) * (K - 1) + K,
     };
 
     /// Sums from the stencil's first node to its last.
     const SUMS_SPAN: usize = match D {
         1 => K,
-        2 => ROW * (K - 1) + K,
-        _ => (ROW + sums_entry(LAYER)) * (K - 1) + K,
+        2 => Self::ROW * (K - 1) + K,
+        _ => (Self::ROW + sums_entry::<D>(Self::LAYER)) * (K - 1) + K,
     };
 
     /// What goes by slope and arm along an axis is made once for each of its nodes; a node then costs two multiply-adds.
@@ -201,7 +200,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
             }
         }
         let sloped = lanes.load(&gift.sloped[0]);
-        let sums = &mut sums[sums_entry(self.base(place))..][..Self::SUMS_SPAN];
+        let sums = &mut sums[sums_entry::<D>(self.base(place))..][..Self::SUMS_SPAN];
         for i in 0..rolled::<D>(K) {
             let w0 = self.along[0].values[i][place];
             let mut along_0 = lanes.mul(value, lanes.splat(w0));
@@ -210,7 +209,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
                 along_0 = lanes.mul_add(sloped, pair, along_0);
             }
             for j in 0..Self::nodes(1) {
-                let node = ROW * j + i;
+                let node = Self::ROW * j + i;
                 if D == 1 {
                     let sum = lanes.load(&sums[node]);
                     add(lanes, along_0, 1.0, sum, &mut sums[node]);
@@ -231,7 +230,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
                 }
                 let both = lanes.splat(w0 * w1);
                 for (k, extra) in extra[2].iter().enumerate() {
-                    let node = sums_entry(LAYER) * k + node;
+                    let node = sums_entry::<D>(Self::LAYER) * k + node;
                     let mut sum = lanes.load(&sums[node]);
                     if E {
                         sum = lanes.mul_add(*extra, both, sum);
@@ -281,7 +280,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
                     let v = node_columns::<L, D>(
                         lanes,
                         &around,
-                        LAYER * k + ROW * j + i,
+                        Self::LAYER * k + Self::ROW * j + i,
                         G && !Self::SMOOTH,
                     );
                     let factors = self.along[0].at(lanes, i);
@@ -314,7 +313,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         sums: &mut [[f64; SUMS]],
     ) {
         // So long that no particle's nodes have to be checked.
-        let sums = &mut sums[..sums_entry(Self::LAST) + Self::SUMS_SPAN];
+        let sums = &mut sums[..sums_entry::<D>(Self::LAST) + Self::SUMS_SPAN];
         let mut left = self.fitting & (u8::MAX >> (EIGHT - count.clamp(1, EIGHT)));
         while left != 0 {
             let place = left.trailing_zeros() as usize % EIGHT;

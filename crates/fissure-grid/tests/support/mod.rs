@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use fissure_grid::{Grid, Shape, Stencil, WINDOW, WINDOW_START, tile_of};
+use fissure_grid::{Grid, Shape, Stencil, Window, tile_of};
 use nalgebra::{SMatrix, SVector};
 
 /// Weight and gradient of each node, by its grid index.
@@ -16,22 +16,21 @@ pub fn nodes<const D: usize>(
     x: &SVector<f64, D>,
     domain: &SMatrix<f64, D, D>,
 ) -> Option<Nodes<D>> {
-    let tile = tile_of(grid.cell(x)?);
-    let stencil = shape.stencil(grid, tile, x, domain)?;
+    let window = Window::of_tile(tile_of(grid.cell(x)?, 4), 4);
+    let stencil = shape.stencil(grid, &window, x, domain)?;
     let mut nodes = Nodes::new();
     let mut values = Vec::new();
-    stencil.visit(|window, value, gradient| {
-        assert!(window < (WINDOW as usize).pow(D as u32));
-        let index = std::array::from_fn(|axis| {
-            4 * tile[axis] + WINDOW_START + (window >> (3 * axis)) as i32 % WINDOW
-        });
-        let entry = nodes.entry(index).or_insert((0.0, SVector::zeros()));
-        entry.0 += value;
-        entry.1 += gradient;
-        values.push((window, value));
+    stencil.visit(|entry, value, gradient| {
+        assert!(window.entries().any(|other| other == entry));
+        let node = nodes
+            .entry(window.node(entry))
+            .or_insert((0.0, SVector::zeros()));
+        node.0 += value;
+        node.1 += gradient;
+        values.push((entry, value));
     });
     let mut alone = Vec::new();
-    stencil.visit_values(|window, value| alone.push((window, value)));
+    stencil.visit_values(|entry, value| alone.push((entry, value)));
     assert_eq!(alone, values);
     Some(nodes)
 }

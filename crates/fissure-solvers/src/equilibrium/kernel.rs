@@ -1,6 +1,6 @@
 //! From nodal displacements to particles.
 
-use fissure_grid::{Shape, Stencil};
+use fissure_grid::{Shape, Stencil, Window};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Kinematics, Run, RunConstants, RunKernel, WindowKernel};
 use fissure_tensor::Band;
@@ -35,7 +35,7 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for DisplacementKernel<'_, S, D> 
         work(&mut Tile {
             step: self,
             nodes: placement.nodes(window),
-            coordinates: placement.coordinates(window),
+            window: placement.window(window),
         })
     }
 }
@@ -43,7 +43,7 @@ impl<S: Shape<D>, const D: usize> RunKernel<D> for DisplacementKernel<'_, S, D> 
 struct Tile<'a, S, const D: usize> {
     step: &'a DisplacementKernel<'a, S, D>,
     nodes: WindowNodes<'a, D>,
-    coordinates: [i32; D],
+    window: Window<D>,
 }
 
 impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
@@ -69,7 +69,7 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             };
             let (x, f_old) = (&old.position[row], &old.deformation_gradient[row]);
             let stencil = transfers
-                .stencil_at(half_edges, self.coordinates, x, f_old)
+                .stencil_at(half_edges, &self.window, x, f_old)
                 .ok_or(failure)?;
             let mut way = SVector::zeros();
             let mut gradient_sum: SMatrix<f64, D, D> = SMatrix::zeros();

@@ -146,20 +146,20 @@ impl<const D: usize> Links<D> {
             let mut last_window = None;
             let mut first_patch = 0;
             for run in &placement.runs[body_index] {
-                let window = placement.nodes(run.window);
-                let coordinates = placement.coordinates(run.window);
+                let nodes = placement.nodes(run.window);
+                let window = placement.window(run.window);
                 // Patches are sought among those of the window.
                 if last_window.replace(run.window) != Some(run.window) {
                     first_patch = self.patches();
                 }
                 for index in run.start as usize..run.end as usize {
-                    let stencil = transfers.stencil(body, coordinates, index);
+                    let stencil = transfers.stencil(body, &window, index);
                     let stencil = stencil.ok_or((body_index, index))?;
                     let first = self.links.len();
                     reached.clear();
                     stencil.visit(|entry, weight, gradient| {
                         if weight > REACHED || gradient.amax() * spacing > REACHED {
-                            let node = window.node(entry) as u32;
+                            let node = nodes.node(entry) as u32;
                             let link = Link { weight, gradient };
                             add_link(&mut reached, &mut self.links, first, node, link);
                         }

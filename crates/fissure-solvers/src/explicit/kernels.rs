@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use fissure_grid::simd::{EIGHT, Lanes, SimdTask, prefetch_rows, write_columns};
-use fissure_grid::{FIELD, SUMS, Shape, Stencils};
+use fissure_grid::{FIELD, SUMS, Shape, Stencils, Window};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Run, RunConstants, RunKernel, WindowKernel};
 use fissure_tensor::Band;
@@ -90,7 +90,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
         let mut sums = WindowSums::<N>::zero();
         let done = work(&mut Tile {
             pass: self,
-            coordinates: placement.coordinates(window),
+            window: placement.window(window),
             field: field.as_flattened(),
             carried: carried.as_ref().map(|values| values.as_flattened()),
             sums: &mut sums.0,
@@ -109,7 +109,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
 /// A pass at work on a tile.
 struct Tile<'a, S, const D: usize> {
     pass: &'a StepKernel<'a, S, D>,
-    coordinates: [i32; D],
+    window: Window<D>,
     field: &'a [f64],
     carried: Option<&'a [f64]>,
     sums: &'a mut [[f64; SUMS]],
@@ -216,9 +216,9 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
             prefetch(lanes, first, constants, old, new);
             let x = positions(lanes, &old.position[first..]);
             let f = &old.deformation_gradient[first..];
-            let stencils =
-                pass.transfers
-                    .stencils_at(lanes, &pass.half_edges, tile.coordinates, &x, f);
+            let stencils = pass
+                .transfers
+                .stencils_at(lanes, &pass.half_edges, &tile.window, &x, f);
             if stencils.fitting() != u8::MAX {
                 let outside = rows.clone().find(|row| !stencils.fits(row - first));
                 return Err(outside.unwrap_or(first));
@@ -316,9 +316,9 @@ impl<S: Shape<D>, const D: usize> SimdTask for ScatterRun<'_, '_, '_, S, D> {
             // Without motion or strain in this pass the trial holds them from the pass before.
             let x = positions(lanes, &place.position[first..]);
             let f = &place.deformation_gradient[first..];
-            let stencils =
-                pass.transfers
-                    .stencils_at(lanes, &pass.half_edges, tile.coordinates, &x, f);
+            let stencils = pass
+                .transfers
+                .stencils_at(lanes, &pass.half_edges, &tile.window, &x, f);
             let rows = first..(first + EIGHT).min(new.len());
             let has_affine = pass.is_affine() && !velocity.affine.is_empty();
             let affine = has_affine.then(|| &velocity.affine[first..]);

@@ -151,14 +151,14 @@ impl<S: Shape<D>, const D: usize> Surface<'_, S, D> {
         runs: &[Run],
         mut visit: impl FnMut(usize, SVector<f64, D>, SMatrix<f64, D, D>),
     ) -> Result<(), (usize, usize)> {
-        let tile = self.transfers.placement.coordinates(runs[0].window);
+        let around = self.transfers.placement.window(runs[0].window);
         let owner = &self.scene.bodies()[body];
         let motion = owner.motion();
         let particles = runs
             .iter()
             .flat_map(|run| run.start as usize..run.end as usize);
         for index in particles {
-            let stencil = self.transfers.stencil(owner, tile, index);
+            let stencil = self.transfers.stencil(owner, &around, index);
             let place = motion.position[index];
             let f = Body::<D>::in_space(&motion.deformation_gradient[index]);
             let edges = f * owner.half_edges();
