@@ -83,20 +83,23 @@ impl Case {
     }
 }
 
-/// Every shape with every transfer and every stress update in a space.
+/// Every shape with every transfer that it can have and every stress update in a space.
 pub fn cases(space: Space) -> Vec<Case> {
     let mut transfers = vec![
         Transfer::Flip { pic: 0.0 },
         Transfer::Flip { pic: 0.05 },
         Transfer::Pic,
         Transfer::Apic,
+        Transfer::Mls,
     ];
     transfers.extend((2..=5).map(|order| Transfer::Xpic { order }));
     transfers.extend((2..=3).map(|order| Transfer::Fmpm { order }));
     let updates = [StressUpdate::First, StressUpdate::Last, StressUpdate::Musl];
     let rows = ShapeKind::ALL.into_iter().flat_map(|shape| {
+        let splines = matches!(shape, ShapeKind::Bspline2 | ShapeKind::Bspline3);
         let columns = transfers
             .iter()
+            .filter(move |&&transfer| splines || transfer != Transfer::Mls)
             .flat_map(|&transfer| updates.map(|u| (transfer, u)));
         columns.map(move |(transfer, update)| Case {
             space,

@@ -70,6 +70,6 @@ pub use quads::{MeshError, QuadMesh, QuadStencil};
 pub use separable::Separable;
 pub use shape::Shape;
 pub use stencil::{FIELD, Gathered, Gift, SUMS, Stencil};
-pub use stencils::{OneByOne, SeparableStencils, Stencils};
+pub use stencils::{By, ByArms, ByArmsAndSlopes, ByNothing, OneByOne, SeparableStencils, Stencils};
 pub use tiles::{ABSENT, TileSize, Tiles};
 pub use window::{WINDOW_START, Window, sums_entry, tile_of};

@@ -104,7 +104,7 @@ impl<Eight: Copy, const D: usize> Gathered<Eight, D> {
 pub struct Gift<const D: usize> {
     /// Multiplied by N.
     pub value: [f64; SUMS],
-    /// For each axis a the first [`FIELD`] multiplied by N (x_i − x)_a, the rest by ∂N/∂x_a.
+    /// For each axis a what is multiplied by N (x_i − x)_a or ∂N/∂x_a, as [`By`](crate::By) says.
     pub sloped: [[f64; SUMS]; D],
 }
 

@@ -1,5 +1,6 @@
 //! Stencils of eight particles of a tile: what transfers between particles and nodes go through.
 
+mod affine;
 mod one_by_one;
 mod separable;
 
@@ -8,6 +9,32 @@ pub use separable::SeparableStencils;
 
 use crate::simd::{EIGHT, Lanes};
 use crate::stencil::{Gathered, Gift, SUMS};
+
+/// What the sloped numbers of a [`Gift`] are multiplied by, known when a transfer is compiled.
+pub trait By {
+    /// Nothing: they are not given.
+    const NOTHING: bool = false;
+    /// All by `N (x_i − x)_a`.
+    const ARMS: bool = false;
+}
+
+/// Values alone are given.
+#[derive(Clone, Copy, Debug)]
+pub struct ByNothing;
+/// The first [`FIELD`](crate::FIELD) of the sloped numbers go by `N (x_i − x)_a`, the rest by `∂N/∂x_a`.
+#[derive(Clone, Copy, Debug)]
+pub struct ByArmsAndSlopes;
+/// All sloped numbers go by `N (x_i − x)_a`.
+#[derive(Clone, Copy, Debug)]
+pub struct ByArms;
+
+impl By for ByNothing {
+    const NOTHING: bool = true;
+}
+impl By for ByArmsAndSlopes {}
+impl By for ByArms {
+    const ARMS: bool = true;
+}
 
 /// How much each of eight particles, by its place, gives to and takes from the nodes of a window.
 pub trait Stencils<const D: usize> {
@@ -36,10 +63,10 @@ pub trait Stencils<const D: usize> {
         field: &[f64],
     ) -> Gathered<L::Eight, D>;
 
-    /// Adds what the first `count` particles, at least one, give, those that fit, to the sums of every node: `N value`, and with `E` what
-    /// goes by gradient and weighted arm, as [`Gift`] says. `sums` holds one for each of the
+    /// Adds what the first `count` particles, at least one, give, those that fit, to the sums of every node: `N value`, and what is
+    /// sloped by what `B` says. `sums` holds one for each of the
     /// [`ELEMENTS`](crate::Window::ELEMENTS) of a window, at its [`sums_entry`](crate::sums_entry).
-    fn scatter<L: Lanes, const E: bool>(
+    fn scatter<L: Lanes, B: By>(
         &self,
         lanes: L,
         gifts: &[Gift<D>; EIGHT],

@@ -1,8 +1,11 @@
 //! Gathering and scattering against the plain sum over visited nodes, for every shape, vector unit and dimension.
 
+use std::marker::PhantomData;
+
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask};
 use fissure_grid::{
-    FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil, Stencils, Window, shape, sums_entry,
+    By, ByArms, ByArmsAndSlopes, ByNothing, FIELD, Gathered, Gift, Grid, SUMS, Shape, Stencil,
+    Stencils, Window, shape, sums_entry,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -12,7 +15,8 @@ fn noise(seed: usize) -> f64 {
     2.0 * (x - x.floor()) - 1.0
 }
 
-struct Both<'a, S, const D: usize> {
+struct Both<'a, S, B, const D: usize> {
+    by: PhantomData<B>,
     shape: &'a S,
     grid: &'a Grid<D>,
     window: &'a Window<D>,
@@ -24,7 +28,7 @@ struct Both<'a, S, const D: usize> {
     sums: &'a mut [[f64; SUMS]],
 }
 
-impl<S: Shape<D>, const D: usize> SimdTask for Both<'_, S, D> {
+impl<S: Shape<D>, B: By, const D: usize> SimdTask for Both<'_, S, B, D> {
     type Output = Gathered<f64, D>;
 
     #[inline(always)]
@@ -38,7 +42,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for Both<'_, S, D> {
             let fits = (1..=3).all(|ahead| other != (place + ahead) % EIGHT);
             assert_eq!(stencils.fits(other), fits, "{}: {other}", self.shape.name());
         }
-        stencils.scatter::<L, true>(lanes, self.gifts, EIGHT, self.sums);
+        stencils.scatter::<L, B>(lanes, self.gifts, EIGHT, self.sums);
         let found = stencils.gather::<L, true, true>(lanes, self.field);
         let of_place = |eight: L::Eight| {
             let mut all = [0.0; EIGHT];
@@ -54,8 +58,9 @@ impl<S: Shape<D>, const D: usize> SimdTask for Both<'_, S, D> {
 }
 
 /// The same by the definition.
-fn plain<S: Stencil<D>, const D: usize>(
+fn plain<S: Stencil<D>, B: By, const D: usize>(
     stencil: &S,
+    _by: B,
     field: &[f64],
     gift: &Gift<D>,
     sums: &mut [[f64; SUMS]],
@@ -78,10 +83,10 @@ fn plain<S: Stencil<D>, const D: usize>(
         for (c, sum) in sums[sums_entry::<D>(window)].iter_mut().enumerate() {
             *sum += weight * gift.value[c];
             for a in 0..D {
-                let factor = if c < FIELD {
-                    weight * arm[a]
-                } else {
-                    gradient[a]
+                let factor = match c < FIELD || B::ARMS {
+                    _ if B::NOTHING => 0.0,
+                    true => weight * arm[a],
+                    false => gradient[a],
                 };
                 *sum += gift.sloped[a][c] * factor;
             }
@@ -92,14 +97,21 @@ fn plain<S: Stencil<D>, const D: usize>(
 
 fn compare<S: Shape<D>, const D: usize>(shape: &S) -> Result<(), String> {
     // Cells 4 to 8 are a tile of four, and half of one of eight.
-    compare_in(shape, &Window::of_tile([1; D], 4))?;
+    compare_in(shape, ByNothing, &Window::of_tile([1; D], 4))?;
+    compare_in(shape, ByArms, &Window::of_tile([1; D], 4))?;
+    compare_in(shape, ByArmsAndSlopes, &Window::of_tile([1; D], 4))?;
     if D < 3 {
-        compare_in(shape, &Window::of_tile([0; D], 8))?;
+        compare_in(shape, ByArms, &Window::of_tile([0; D], 8))?;
+        compare_in(shape, ByArmsAndSlopes, &Window::of_tile([0; D], 8))?;
     }
     Ok(())
 }
 
-fn compare_in<S: Shape<D>, const D: usize>(shape: &S, window: &Window<D>) -> Result<(), String> {
+fn compare_in<S: Shape<D>, B: By + Copy, const D: usize>(
+    shape: &S,
+    by: B,
+    window: &Window<D>,
+) -> Result<(), String> {
     let grid = Grid::over([0.0; D], [3.0; D], 0.25).map_err(|error| error.to_string())?;
     let elements = Window::<D>::ELEMENTS;
     let field: Vec<f64> = (0..elements * FIELD).map(noise).collect();
@@ -135,8 +147,9 @@ fn compare_in<S: Shape<D>, const D: usize>(shape: &S, window: &Window<D>) -> Res
             };
             let mut exact_sums = vec![[0.5; SUMS]; sums_entry::<D>(elements)];
             let mut sums = exact_sums.clone();
-            let exact = plain(&stencil, &field, &gift, &mut exact_sums);
+            let exact = plain(&stencil, by, &field, &gift, &mut exact_sums);
             let found = unit.run(Both {
+                by: PhantomData::<B>,
                 shape,
                 grid: &grid,
                 window,

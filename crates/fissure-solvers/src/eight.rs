@@ -159,7 +159,8 @@ impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
         }
     }
 
-    /// Adds the internal forces of stresses: `−V (σ·∇N + σ_θθ N e_r / r)`, N.
+    /// Adds the internal forces of stresses: `−V (σ·∇N + σ_θθ N e_r / r)`, N; with `by_arms`, a factor `D⁻¹`, that times
+    /// `N (x_i − x)` in place of `∇N`.
     #[inline(always)]
     pub(crate) fn add_stress<L: Lanes<Eight = Eight>>(
         &mut self,
@@ -168,11 +169,13 @@ impl<Eight: Copy, const D: usize> GiftColumns<Eight, D> {
         stress: &Matrix<Eight>,
         volume: Eight,
         x: &[[f64; EIGHT]; D],
+        by_arms: Option<f64>,
     ) {
         let minus = lanes.mul(volume, lanes.splat(-1.0));
+        let sloped = lanes.mul(minus, lanes.splat(by_arms.unwrap_or(1.0)));
         for j in 0..D {
             for i in 0..D {
-                self.sloped[j][NodeSums::<D>::FORCE + i] = lanes.mul(minus, stress[j][i]);
+                self.sloped[j][NodeSums::<D>::FORCE + i] = lanes.mul(sloped, stress[j][i]);
             }
         }
         if kinematics == Kinematics::Axisymmetric {

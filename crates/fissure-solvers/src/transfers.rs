@@ -5,7 +5,9 @@
 //! so every sum has one order and the same bits on any number of threads.
 
 use fissure_grid::simd::{EIGHT, Lanes, Simd, SimdTask, read_numbers};
-use fissure_grid::{FIELD, Grid, SUMS, Shape, Stencils, Window};
+use fissure_grid::{
+    ByArms, ByArmsAndSlopes, ByNothing, FIELD, Grid, SUMS, Shape, Stencils, Window,
+};
 use fissure_scene::{Body, Kinematics, Run, Scene, for_each_window};
 use nalgebra::{SMatrix, SVector};
 
@@ -34,6 +36,8 @@ pub(crate) enum Given {
         affine: bool,
         /// With the internal forces before the step.
         forces: bool,
+        /// The factor with which these go by weighted arms in place of gradients, 1/m².
+        by_arms: Option<f64>,
     },
     /// Internal forces.
     #[cfg(feature = "implicit")]
@@ -41,6 +45,15 @@ pub(crate) enum Given {
 }
 
 impl Given {
+    #[inline(always)]
+    fn by_arms(self) -> Option<f64> {
+        match self {
+            Self::Momentum { by_arms, .. } => by_arms,
+            #[cfg(feature = "implicit")]
+            Self::Forces(_) => None,
+        }
+    }
+
     #[inline(always)]
     fn forces(self) -> Option<At> {
         match self {
@@ -242,7 +255,8 @@ impl<S: Shape<D>, const D: usize> SpreadRuns<'_, S, D> {
         let volume = lanes.mul(volume, determinant(lanes, &f));
         let stress = read_symmetric(lanes, &motion.stress[rows.clone()]);
         let x = positions(lanes, &motion.position[rows.clone()]);
-        gift.add_stress(lanes, self.transfers.kinematics, &stress, volume, &x);
+        let kinematics = self.transfers.kinematics;
+        gift.add_stress(lanes, kinematics, &stress, volume, &x, self.given.by_arms());
         #[cfg(feature = "implicit")]
         if self.given.forces() == Some(At::End) {
             let f_old = read_matrices(lanes, &present.deformation_gradient[rows]);
@@ -275,12 +289,15 @@ impl<S: Shape<D>, const D: usize> SimdTask for SpreadRuns<'_, S, D> {
                     return Err(row);
                 }
                 let gift = self.gift(lanes, rows.clone());
-                if sloped {
+                if S::MOMENTS && self.given.by_arms().is_some() {
                     let gifts = gift.rows::<L, true>(lanes);
-                    stencils.scatter::<L, true>(lanes, &gifts, rows.len(), self.sums);
+                    stencils.scatter::<L, ByArms>(lanes, &gifts, rows.len(), self.sums);
+                } else if sloped {
+                    let gifts = gift.rows::<L, true>(lanes);
+                    stencils.scatter::<L, ByArmsAndSlopes>(lanes, &gifts, rows.len(), self.sums);
                 } else {
                     let gifts = gift.rows::<L, false>(lanes);
-                    stencils.scatter::<L, false>(lanes, &gifts, rows.len(), self.sums);
+                    stencils.scatter::<L, ByNothing>(lanes, &gifts, rows.len(), self.sums);
                 }
             }
         }
@@ -323,7 +340,7 @@ impl<S: Shape<D>, const D: usize> SimdTask for RelayRuns<'_, S, D> {
                 v.copy_from_slice(&gathered.value[..D]);
                 let mass = read_numbers(lanes, &particles.mass[first..end]);
                 let gifts = GiftColumns::momentum(lanes, mass, &v).rows::<L, false>(lanes);
-                stencils.scatter::<L, false>(lanes, &gifts, count, self.sums);
+                stencils.scatter::<L, ByNothing>(lanes, &gifts, count, self.sums);
             }
         }
         Ok(())

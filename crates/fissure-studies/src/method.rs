@@ -53,7 +53,7 @@ fn explicit() -> [Parameter; 4] {
             "transfer",
             "between particles and grid (explicit)",
             "flip",
-            &["flip", "pic", "apic", "xpic", "fmpm"],
+            &["flip", "pic", "apic", "mls", "xpic", "fmpm"],
         ),
         Parameter::count(
             "order",
@@ -260,6 +260,7 @@ pub fn explicit_settings(case: &Parameters) -> Result<ExplicitSettings, StudyErr
         transfer: match case.choice("transfer")? {
             "pic" => Transfer::Pic,
             "apic" => Transfer::Apic,
+            "mls" => Transfer::Mls,
             "xpic" => Transfer::Xpic { order },
             "fmpm" => Transfer::Fmpm { order },
             _ => Transfer::Flip { pic: 0.0 },

@@ -106,7 +106,7 @@ impl Study for WorkPrecision {
             let transfers: &[&str] = if quick {
                 &["flip"]
             } else {
-                &["flip", "apic", "xpic", "fmpm"]
+                &["flip", "apic", "mls", "xpic", "fmpm"]
             };
             cases.push(
                 bar.set("solver", "explicit")

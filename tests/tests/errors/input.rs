@@ -367,6 +367,25 @@ fn numbers_in_scene_grid_and_settings_are_refused_by_name() {
 }
 
 #[test]
+fn moving_least_squares_are_refused_where_there_is_no_constant_moment() {
+    for shape in ShapeKind::ALL {
+        let grid = Grid::over([0.0; 2], [1.0; 2], H).unwrap();
+        let settings = ExplicitSettings {
+            transfer: Transfer::Mls,
+            ..Default::default()
+        };
+        let splines = matches!(shape, ShapeKind::Bspline2 | ShapeKind::Bspline3);
+        match Table::solver(shape, grid, settings) {
+            Ok(_) => assert!(splines, "{shape:?}"),
+            Err(SolveError::Unsupported { what }) => {
+                assert!(!splines && what.contains("least squares"), "{shape:?}");
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+}
+
+#[test]
 fn a_time_in_the_past_is_refused() {
     let mut scene = scene();
     let grid = Grid::over([-0.5; 2], [1.0; 2], H).unwrap();

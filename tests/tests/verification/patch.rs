@@ -76,6 +76,11 @@ where
     }
 }
 
+/// Whether particles carry an affine part.
+fn carries_affine(transfer: Transfer) -> bool {
+    matches!(transfer, Transfer::Apic | Transfer::Mls)
+}
+
 /// A gradient without symmetry; about 0.2 % strain in a step.
 fn gradient<const D: usize>(case: &Case) -> SMatrix<f64, D, D> {
     let full =
@@ -85,7 +90,7 @@ fn gradient<const D: usize>(case: &Case) -> SMatrix<f64, D, D> {
         (Space::Axisymmetric, _, StressUpdate::First) => {
             SMatrix::from_fn(|i, j| if (i, j) == (1, 1) { full[(1, 1)] } else { 0.0 })
         }
-        (Space::Axisymmetric, transfer, _) if transfer != Transfer::Apic => {
+        (Space::Axisymmetric, transfer, _) if !carries_affine(transfer) => {
             SMatrix::from_fn(|i, j| if j == 1 { full[(i, 1)] } else { 0.0 })
         }
         _ => full,
@@ -99,7 +104,7 @@ where
     let mut cube = Cube::<D>::new(case);
     let rate = gradient::<D>(case);
     cube.scene.set_velocity("cube", |x| rate * x).unwrap();
-    if case.transfer == Transfer::Apic {
+    if carries_affine(case.transfer) {
         let particles = cube.particles();
         particles.motion.affine = vec![rate; particles.len()];
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::Stencils;
+use super::{By, Stencils};
 use crate::simd::{EIGHT, Lanes};
 use crate::stencil::{FIELD, Gathered, Gift, SUMS};
 use crate::{Stencil, sums_entry};
@@ -60,7 +60,7 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
     }
 
     #[inline(always)]
-    fn scatter<L: Lanes, const E: bool>(
+    fn scatter<L: Lanes, B: By>(
         &self,
         _lanes: L,
         gifts: &[Gift<D>; EIGHT],
@@ -70,15 +70,15 @@ impl<S: Stencil<D>, const D: usize> Stencils<D> for OneByOne<S> {
         for (stencil, gift) in self.0.iter().zip(gifts).take(count) {
             let Some(stencil) = stencil else { continue };
             stencil.visit(|window, weight, gradient| {
-                let arm = if E {
-                    stencil.arm(window)
-                } else {
+                let arm = if B::NOTHING {
                     SVector::zeros()
+                } else {
+                    stencil.arm(window)
                 };
                 for (c, sum) in sums[sums_entry::<D>(window)].iter_mut().enumerate() {
                     *sum += gift.value[c] * weight;
-                    for a in 0..if E { D } else { 0 } {
-                        let factor = if c < FIELD {
+                    for a in 0..if B::NOTHING { 0 } else { D } {
+                        let factor = if B::ARMS || c < FIELD {
                             weight * arm[a]
                         } else {
                             gradient[a]

@@ -2,7 +2,8 @@
 
 use std::hint::black_box;
 
-use super::Stencils;
+use super::affine::AffineStencils;
+use super::{By, Stencils};
 use crate::axes::Numbers;
 use crate::separable::Profile;
 use crate::simd::{EIGHT, Lanes, chunks};
@@ -15,17 +16,21 @@ const LAST_BIT_ONE: f64 = 4_503_599_627_370_496.0;
 /// Stencils that are products of one weight per axis, K nodes along each of D axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparableStencils<const D: usize, const K: usize> {
-    along: [Along<K>; D],
+    pub(super) along: [Along<K>; D],
     /// Window index of the lowest node, in the last bits; any if the particle does not fit.
-    base: [u64; EIGHT],
+    pub(super) base: [u64; EIGHT],
+    /// Cell width, m.
+    pub(super) spacing: f64,
     fitting: u8,
 }
 
 /// The weights of K nodes along an axis, each for eight particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
-struct Along<const K: usize> {
-    values: [[f64; EIGHT]; K],
+pub(super) struct Along<const K: usize> {
+    pub values: [[f64; EIGHT]; K],
+    /// From the particle to the first node, m.
+    pub arm: [f64; EIGHT],
     /// Derivatives of the values, 1/m.
     slopes: [[f64; EIGHT]; K],
     /// Values times arms, m.
@@ -35,6 +40,7 @@ struct Along<const K: usize> {
 impl<const K: usize> Along<K> {
     const NOTHING: Self = Self {
         values: [[0.0; EIGHT]; K],
+        arm: [0.0; EIGHT],
         slopes: [[0.0; EIGHT]; K],
         moments: [[0.0; EIGHT]; K],
     };
@@ -56,6 +62,7 @@ impl<const K: usize> Along<K> {
         let (first, values, slopes) = profile.line(local);
         let start = cell + first + -f64::from(window.first[axis]);
         let arm = (first - local) * grid.spacing();
+        self.arm = arm.0;
         for k in 0..K {
             self.values[k] = values[k].0;
             self.slopes[k] = (slopes[k] * grid.inverse_spacing()).0;
@@ -129,6 +136,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         let mut stencils = Self {
             along,
             base: [0; EIGHT],
+            spacing: grid.spacing(),
             fitting,
         };
         for (to, base) in stencils.base.iter_mut().zip((base + LAST_BIT_ONE).0) {
@@ -142,26 +150,27 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
         Self {
             along: [Along::NOTHING; D],
             base: [0; EIGHT],
+            spacing: 0.0,
             fitting: 0,
         }
     }
 
-    /// Window index of the lowest node; that of some node if the particle does not fit.
+    /// Window index of the lowest node, given what [`base`](Self::base) holds; that of some node if the particle does not fit.
     #[inline(always)]
-    fn base(&self, place: usize) -> usize {
-        (self.base[place] as u16 as usize).min(Self::LAST)
+    pub(super) fn first_node(base: u64) -> usize {
+        (base as u16 as usize).min(Self::LAST)
     }
 
     /// Nodes along an axis; the axes that space has not have one.
     #[inline(always)]
-    fn nodes(axis: usize) -> usize {
+    pub(super) fn nodes(axis: usize) -> usize {
         if axis < D { K } else { 1 }
     }
 
     /// From a node to the next along axis 1.
-    const ROW: usize = Window::<D>::ROW;
+    pub(super) const ROW: usize = Window::<D>::ROW;
     /// From a node to the next along axis 2.
-    const LAYER: usize = Self::ROW * Self::ROW;
+    pub(super) const LAYER: usize = Self::ROW * Self::ROW;
     /// The last window index.
     const LAST: usize = Window::<D>::ENTRIES - 1;
 
@@ -173,7 +182,7 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
     };
 
     /// Sums from the stencil's first node to its last.
-    const SUMS_SPAN: usize = match D {
+    pub(super) const SUMS_SPAN: usize = match D {
         1 => K,
         2 => Self::ROW * (K - 1) + K,
         _ => (Self::ROW + sums_entry::<D>(Self::LAYER)) * (K - 1) + K,
@@ -181,17 +190,18 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
 
     /// What goes by slope and arm along an axis is made once for each of its nodes; a node then costs two multiply-adds.
     #[inline(always)]
-    fn scatter_one<L: Lanes, const E: bool>(
+    fn scatter_one<L: Lanes, B: By>(
         &self,
         lanes: L,
         place: usize,
         gift: &Gift<D>,
         sums: &mut [[f64; SUMS]],
     ) {
+        let has_slopes = !B::NOTHING;
         let value = lanes.load(&gift.value);
         let zero = lanes.splat(0.0);
         let mut extra = [[zero; K]; 3];
-        if E {
+        if has_slopes {
             for axis in 1..D {
                 let sloped = lanes.load(&gift.sloped[axis]);
                 for (k, extra) in extra[axis].iter_mut().enumerate() {
@@ -200,11 +210,12 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
             }
         }
         let sloped = lanes.load(&gift.sloped[0]);
-        let sums = &mut sums[sums_entry::<D>(self.base(place))..][..Self::SUMS_SPAN];
+        let sums =
+            &mut sums[sums_entry::<D>(Self::first_node(self.base[place]))..][..Self::SUMS_SPAN];
         for i in 0..rolled::<D>(K) {
             let w0 = self.along[0].values[i][place];
             let mut along_0 = lanes.mul(value, lanes.splat(w0));
-            if E {
+            if has_slopes {
                 let pair = self.along[0].pair(lanes, i, place);
                 along_0 = lanes.mul_add(sloped, pair, along_0);
             }
@@ -218,21 +229,21 @@ impl<const D: usize, const K: usize> SeparableStencils<D, K> {
                 let w1 = self.along[1 % D].values[j][place];
                 if D == 2 {
                     let mut sum = lanes.load(&sums[node]);
-                    if E {
+                    if has_slopes {
                         sum = lanes.mul_add(extra[1][j], lanes.splat(w0), sum);
                     }
                     add(lanes, along_0, w1, sum, &mut sums[node]);
                     continue;
                 }
                 let mut along_1 = lanes.mul(along_0, lanes.splat(w1));
-                if E {
+                if has_slopes {
                     along_1 = lanes.mul_add(extra[1][j], lanes.splat(w0), along_1);
                 }
                 let both = lanes.splat(w0 * w1);
                 for (k, extra) in extra[2].iter().enumerate() {
                     let node = sums_entry::<D>(Self::LAYER) * k + node;
                     let mut sum = lanes.load(&sums[node]);
-                    if E {
+                    if has_slopes {
                         sum = lanes.mul_add(*extra, both, sum);
                     }
                     add(
@@ -268,7 +279,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         let field = &field[..FIELD * (Self::LAST + Self::SPAN)];
         let mut around = [&field[..0]; EIGHT];
         for (place, around) in around.iter_mut().enumerate() {
-            *around = &field[FIELD * self.base(place)..][..FIELD * Self::SPAN];
+            *around = &field[FIELD * Self::first_node(self.base[place])..][..FIELD * Self::SPAN];
         }
         let nothing = Gathered::<L::Eight, D>::of(lanes.splat(0.0));
         let mut all = nothing;
@@ -305,7 +316,7 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
 
     /// Particle by particle.
     #[inline(always)]
-    fn scatter<L: Lanes, const E: bool>(
+    fn scatter<L: Lanes, B: By>(
         &self,
         lanes: L,
         gifts: &[Gift<D>; EIGHT],
@@ -315,9 +326,18 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
         // So long that no particle's nodes have to be checked.
         let sums = &mut sums[..sums_entry::<D>(Self::LAST) + Self::SUMS_SPAN];
         let mut left = self.fitting & (u8::MAX >> (EIGHT - count.clamp(1, EIGHT)));
+        if B::ARMS {
+            let affine = AffineStencils::of(lanes, self);
+            while left != 0 {
+                let place = left.trailing_zeros() as usize % EIGHT;
+                affine.scatter_one(lanes, place, &gifts[place], sums);
+                left &= left - 1;
+            }
+            return;
+        }
         while left != 0 {
             let place = left.trailing_zeros() as usize % EIGHT;
-            self.scatter_one::<L, E>(lanes, place, &gifts[place], sums);
+            self.scatter_one::<L, B>(lanes, place, &gifts[place], sums);
             left &= left - 1;
         }
     }
@@ -326,12 +346,18 @@ impl<const D: usize, const K: usize> Stencils<D> for SeparableStencils<D, K> {
 /// The end of a loop that in space is to stay one: with all of its turns written out there would be more numbers at
 /// hand than registers.
 #[inline(always)]
-fn rolled<const D: usize>(end: usize) -> usize {
+pub(super) fn rolled<const D: usize>(end: usize) -> usize {
     if D == 3 { black_box(end) } else { end }
 }
 
 /// Stores `x weight + sum`.
 #[inline(always)]
-fn add<L: Lanes>(lanes: L, x: L::Eight, weight: f64, sum: L::Eight, to: &mut [f64; SUMS]) {
+pub(super) fn add<L: Lanes>(
+    lanes: L,
+    x: L::Eight,
+    weight: f64,
+    sum: L::Eight,
+    to: &mut [f64; SUMS],
+) {
     lanes.store(lanes.mul_add(x, lanes.splat(weight), sum), to);
 }

@@ -71,6 +71,7 @@ pub(crate) fn momenta<S: Shape<D>, const D: usize>(
         sums,
         Given::Momentum {
             affine: false,
+            by_arms: None,
             forces: false,
         },
     )

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use fissure_grid::simd::{EIGHT, Lanes, SimdTask, prefetch_rows, write_columns};
-use fissure_grid::{FIELD, SUMS, Shape, Stencils, Window};
+use fissure_grid::{ByArms, ByArmsAndSlopes, ByNothing, FIELD, SUMS, Shape, Stencils, Window};
 use fissure_particles::{MotionSlices, MotionSlicesMut};
 use fissure_scene::{KernelFailure, Run, RunConstants, RunKernel, WindowKernel};
 use fissure_tensor::Band;
@@ -43,6 +43,8 @@ pub(crate) struct StepKernel<'a, S, const D: usize> {
     pub transfer: Transfer,
     /// `D⁻¹` of APIC on splines, 1/m²; without it the affine part is the velocity gradient.
     pub affine_inverse: Option<f64>,
+    /// The same where it takes the place of the functions' gradients, for strains and forces.
+    pub by_arms: Option<f64>,
     pub dt: f64,
     /// Whether positions and velocities are moved.
     pub moves: bool,
@@ -102,7 +104,7 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     }
 
     pub(super) fn is_affine(&self) -> bool {
-        self.transfer == Transfer::Apic
+        self.transfer.is_affine()
     }
 }
 
@@ -151,7 +153,9 @@ impl<S: Shape<D>, const D: usize> WindowKernel<D> for Tile<'_, S, D> {
             };
         }
         // Which sums are made is known when this is compiled; all else is asked for eight particles at a time.
-        let gathered = if pass.is_affine() && pass.moves && S::MOMENTS {
+        let gathered = if S::MOMENTS && pass.by_arms.is_some() {
+            gather!(false, true)
+        } else if pass.is_affine() && pass.moves && S::MOMENTS {
             gather!(true, true)
         } else if pass.strains || pass.is_affine() {
             gather!(true, false)
@@ -231,13 +235,13 @@ impl<S: Shape<D>, const D: usize, const GRADIENT: bool, const MOMENT: bool> Simd
                 let carried =
                     carried.map(|carried| stencils.gather::<L, false, false>(lanes, carried));
                 inside = pass.move_eight(lanes, first, &x, (&gathered, carried.as_ref()), old, new);
-                if GRADIENT && pass.is_affine() {
+                if (GRADIENT || MOMENT) && pass.is_affine() {
                     pass.write_affine::<L, MOMENT>(lanes, first, &gathered, new);
                 }
             }
-            if GRADIENT && pass.strains {
+            if (GRADIENT || MOMENT) && pass.strains {
                 let f_old = read_matrices(lanes, f);
-                let strain = pass.strain(lanes, &x, &gathered);
+                let strain = pass.strain::<L, GRADIENT>(lanes, &x, &gathered);
                 if pass.backward {
                     let stress = read_symmetric(lanes, &old.stress[first..]);
                     let volume = volumes(lanes, first, constants.volume, &f_old);
@@ -328,7 +332,8 @@ impl<S: Shape<D>, const D: usize> SimdTask for ScatterRun<'_, '_, '_, S, D> {
                 let f = read_matrices(lanes, &new.deformation_gradient[first..]);
                 let volume = volumes(lanes, first, constants.volume, &f);
                 let stress = read_symmetric(lanes, &new.stress[first..]);
-                gift.add_stress(lanes, pass.transfers.kinematics, &stress, volume, &x);
+                let kinematics = pass.transfers.kinematics;
+                gift.add_stress(lanes, kinematics, &stress, volume, &x, pass.by_arms);
                 if works {
                     let strain = tile.strains[first / EIGHT].load::<L, D>(lanes);
                     let work = strain.work::<L, D>(lanes, &stress);
@@ -339,12 +344,15 @@ impl<S: Shape<D>, const D: usize> SimdTask for ScatterRun<'_, '_, '_, S, D> {
             if stencils.fitting() != u8::MAX {
                 pass.strayed.store(true, Relaxed);
             }
-            if forces || has_affine {
+            if S::MOMENTS && pass.by_arms.is_some() {
                 let gifts = gift.rows::<L, true>(lanes);
-                stencils.scatter::<L, true>(lanes, &gifts, rows.len(), tile.sums);
+                stencils.scatter::<L, ByArms>(lanes, &gifts, rows.len(), tile.sums);
+            } else if forces || has_affine {
+                let gifts = gift.rows::<L, true>(lanes);
+                stencils.scatter::<L, ByArmsAndSlopes>(lanes, &gifts, rows.len(), tile.sums);
             } else {
                 let gifts = gift.rows::<L, false>(lanes);
-                stencils.scatter::<L, false>(lanes, &gifts, rows.len(), tile.sums);
+                stencils.scatter::<L, ByNothing>(lanes, &gifts, rows.len(), tile.sums);
             }
         }
     }

@@ -150,9 +150,9 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
         write_columns(lanes, &numbers[..D * D], &mut new.affine[first..]);
     }
 
-    /// Strain of eight at `x`.
+    /// Strain of eight at `x`, by the gradients of the functions or by the moments.
     #[inline(always)]
-    pub(super) fn strain<L: Lanes>(
+    pub(super) fn strain<L: Lanes, const GRADIENT: bool>(
         &self,
         lanes: L,
         x: &[[f64; EIGHT]; D],
@@ -160,7 +160,12 @@ impl<S: Shape<D>, const D: usize> StepKernel<'_, S, D> {
     ) -> Strain<L::Eight> {
         let zero = lanes.splat(0.0);
         let mut columns = [[zero; 3]; 3];
-        let change = scaled(lanes, &gradient::<L, S, D>(lanes, gathered), self.dt);
+        let change = if GRADIENT {
+            scaled(lanes, &gradient::<L, S, D>(lanes, gathered), self.dt)
+        } else {
+            let factor = self.affine_inverse.unwrap_or(0.0) * self.dt;
+            scaled(lanes, &gathered.moment, factor)
+        };
         for j in 0..D {
             columns[j][..D].copy_from_slice(&change[j][..D]);
         }

@@ -62,8 +62,9 @@ pub(crate) fn to_grid<S: Shape<D>, const D: usize>(
         sums,
         Given::Momentum {
             // A column that an earlier solver left is not this one's.
-            affine: settings.transfer == Transfer::Apic,
+            affine: settings.transfer.is_affine(),
             forces: settings.stress_update != StressUpdate::First,
+            by_arms: settings.force_factor(transfers.shape, transfers.grid),
         },
     );
     spread.map_err(|(body, index)| outside(scene, body, index))
@@ -274,6 +275,7 @@ impl<S: Shape<D>, const D: usize> Phases<'_, S, D> {
             half_edges: *body.half_edges(),
             transfer: self.settings.transfer,
             affine_inverse: shape.affine_inverse(grid.spacing()),
+            by_arms: self.settings.force_factor(shape, grid),
             dt: self.dt,
             moves: pass.moves,
             strains: pass.strains,

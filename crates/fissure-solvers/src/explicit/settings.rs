@@ -1,6 +1,6 @@
 //! Choices of the explicit solver.
 
-use fissure_grid::{Shape, simd::Simd};
+use fissure_grid::{Grid, Shape, simd::Simd};
 use fissure_scene::SolveError;
 
 use crate::band::BandSource;
@@ -32,6 +32,10 @@ pub enum Transfer {
     Pic,
     /// Particles take the interpolated velocity and carry its gradient [Jiang et al. 2015].
     Apic,
+    /// APIC by moving least squares, as in MLS-MPM [Hu et al. 2018]: the affine part is also the gradient that strains the
+    /// particle, and forces are those that do its work, `f_i = −Σ V σ D⁻¹ (x_i − x_p) N_i`, with APIC's moment `D`. Cheaper, since
+    /// no gradients of the functions are needed; conserves as APIC does. B-splines alone have it.
+    Mls,
     /// FLIP's acceleration on velocities filtered by `order` terms of the expansion of the
     /// inverse mass matrix [Hammerquist and Nairn 2017]. Order 1 is PIC.
     Xpic {
@@ -51,7 +55,12 @@ pub enum Transfer {
 impl Transfer {
     /// Whether particles take up another nodal field than the velocity they move with.
     pub(crate) fn carries(&self) -> bool {
-        !matches!(self, Self::Pic | Self::Apic)
+        !matches!(self, Self::Pic | Self::Apic | Self::Mls)
+    }
+
+    /// Whether particles carry an affine part.
+    pub(crate) fn is_affine(&self) -> bool {
+        matches!(self, Self::Apic | Self::Mls)
     }
 }
 
@@ -93,6 +102,16 @@ impl Default for ExplicitSettings {
 }
 
 impl ExplicitSettings {
+    /// `D⁻¹`, 1/m², where forces go by weighted arms in place of gradients.
+    pub(crate) fn force_factor<S: Shape<D>, const D: usize>(
+        &self,
+        shape: &S,
+        grid: &Grid<D>,
+    ) -> Option<f64> {
+        let factor = shape.affine_inverse(grid.spacing());
+        factor.filter(|_| self.transfer == Transfer::Mls)
+    }
+
     /// Whether a step reads no velocity, stress or affine part of the step before, and can make them again from its nodal
     /// field: then they are written over ([`Body::writes_in_place`](fissure_scene::Body::writes_in_place)).
     pub(crate) fn in_place<S: Shape<D>, const D: usize>(&self) -> bool {
@@ -102,8 +121,13 @@ impl ExplicitSettings {
             && !S::DEFORMS
     }
 
-    /// Refuses settings outside their range.
-    pub(crate) fn check(&self) -> Result<(), SolveError> {
+    /// Refuses settings outside their range, and those that do not go with the shape.
+    pub(crate) fn check<S: Shape<D>, const D: usize>(&self) -> Result<(), SolveError> {
+        if self.transfer == Transfer::Mls && !S::MOMENTS {
+            return Err(SolveError::Unsupported {
+                what: "moving least squares with other shape functions than B-splines",
+            });
+        }
         let refuse = |setting, value, permitted| {
             Err(SolveError::Setting {
                 setting,

@@ -11,7 +11,7 @@ use super::contact::{Gap, Meetings};
 use super::grid_update::Nodes;
 use super::kernels::Giving;
 use super::phases::{Pass, Phases, mean_particle_mass, to_grid};
-use super::settings::{ExplicitSettings, StressUpdate, Transfer};
+use super::settings::{ExplicitSettings, StressUpdate};
 use crate::checks::{check_columns, check_mesh, check_until};
 use crate::constraints::Constraints;
 use crate::crack_motion::{NodeWay, carried, refine};
@@ -56,7 +56,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
     /// # Errors
     /// A setting outside its range.
     pub fn new(grid: Grid<D>, shape: S, settings: ExplicitSettings) -> Result<Self, SolveError> {
-        settings.check()?;
+        settings.check::<S, D>()?;
         Ok(Self {
             grid,
             shape,
@@ -103,7 +103,7 @@ impl<S: Shape<D>, const D: usize> Explicit<S, D> {
             check_mesh(&self.grid, &self.shape, scene)?;
             self.mean_particle_mass = mean_particle_mass(scene);
             self.settings.band.check(&self.shape, &self.grid, scene)?;
-            if self.settings.transfer == Transfer::Apic {
+            if self.settings.transfer.is_affine() {
                 for body in scene.bodies_mut() {
                     body.particles_mut().motion.ensure_affine();
                 }

@@ -27,7 +27,7 @@ impl Numerics {
                 "transfer",
                 "between particles and grid",
                 "xpic",
-                &["flip", "pic", "apic", "xpic", "fmpm"],
+                &["flip", "pic", "apic", "mls", "xpic", "fmpm"],
             ),
             Parameter::count(
                 "order",
@@ -71,6 +71,7 @@ impl Numerics {
                 "flip" => Transfer::Flip { pic: 0.0 },
                 "pic" => Transfer::Pic,
                 "apic" => Transfer::Apic,
+                "mls" => Transfer::Mls,
                 "fmpm" => Transfer::Fmpm { order },
                 _ => Transfer::Xpic { order },
             },
