@@ -63,11 +63,18 @@ impl Study for StableStep {
             .sweep("update", ["first", "last", "musl"])
             .sweep("transfer", ["flip", "apic", "xpic"])
             .sweep("shape", method::SHAPES.iter().copied());
-        vec![
-            all.clone().sweep("poisson", [0.0, 0.3]),
-            all.clone().set("lattice", "shifted"),
-            all.set("lattice", "shifted").set("per_cell", 3_u64),
-        ]
+        let by_moments = all
+            .clone()
+            .set("transfer", "mls")
+            .sweep("shape", ["bspline2", "bspline3"]);
+        let ways = |all: Overrides| {
+            [
+                all.clone().sweep("poisson", [0.0, 0.3]),
+                all.clone().set("lattice", "shifted"),
+                all.set("lattice", "shifted").set("per_cell", 3_u64),
+            ]
+        };
+        ways(all).into_iter().chain(ways(by_moments)).collect()
     }
 
     fn run(&self, cases: &[Parameters], rows: &mut Rows<'_>) -> Result<(), StudyError> {

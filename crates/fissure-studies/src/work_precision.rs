@@ -168,6 +168,15 @@ fn smooth(base: Overrides, cells: &[f64], quick: bool) -> Vec<Overrides> {
         base.clone()
             .sweep("shape", ["cpdi", "bspline2"])
             .set("cfl", 0.8),
+        base.clone()
+            .sweep("shape", ["bspline2", "bspline3"])
+            .sweep("cfl", [0.4, 0.8])
+            .set("transfer", "mls"),
+        base.clone()
+            .set("shape", "bspline2")
+            .set("cfl", 0.8)
+            .set("update", "last")
+            .set("transfer", "mls"),
         base.set("solver", "implicit")
             .sweep("shape", ["gimp", "cpdi"])
             .sweep("steps", [8_u64, 16, 32]),

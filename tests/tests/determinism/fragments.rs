@@ -15,7 +15,7 @@ pub struct Setting {
     pub update: StressUpdate,
 }
 
-pub const SETTINGS: [Setting; 5] = [
+pub const SETTINGS: [Setting; 6] = [
     Setting {
         shape: ShapeKind::Linear,
         transfer: Transfer::Flip { pic: 0.0 },
@@ -34,6 +34,11 @@ pub const SETTINGS: [Setting; 5] = [
     Setting {
         shape: ShapeKind::Bspline2,
         transfer: Transfer::Apic,
+        update: StressUpdate::Last,
+    },
+    Setting {
+        shape: ShapeKind::Bspline2,
+        transfer: Transfer::Mls,
         update: StressUpdate::Last,
     },
     Setting {
